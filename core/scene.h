@@ -1,0 +1,119 @@
+#pragma once
+// What a picture is made of, after the scene file has been read: camera, materials, lights, sky, settings.
+// Plain values in the units their names say; colours are linear Rec. 709.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "core/mesh.h"
+#include "core/vec.h"
+
+namespace obscura {
+
+/// A decoded texture, linear-light RGB with its mip chain (level 0 first; each level halves, rounding up
+/// to 1; 2 x 2 box filter).
+struct Texture {
+    std::string name;
+    std::vector<Image<Vec3f>> levels;
+};
+
+/// Metallic-roughness surface: Lambert + GGX (Walter et al. 2007; Burley 2012 parameters).
+struct Material {
+    std::string name;
+    Vec3f base_color{0.8f, 0.8f, 0.8f};  ///< linear, each in [0, 1]
+    float roughness = 0.8f;              ///< perceptual, alpha = roughness^2, in [0.02, 1]
+    float metallic = 0.0f;               ///< in [0, 1]
+    Vec3f emission{0, 0, 0};             ///< emitted radiance, W / (m^2 sr) per channel
+    std::int32_t texture = -1;           ///< index into Scene::textures, multiplies base_color; -1 = none
+    float translucency = 0.0f;           ///< share of light that passes thin sheets diffusely (leaves), in [0, 1]
+};
+
+enum class CameraKind { perspective, orthographic };
+
+struct Camera {
+    CameraKind kind = CameraKind::perspective;
+    Vec3d eye{0, 1, 5}, look_at{0, 0, 0}, up{0, 1, 0};
+    double vfov_deg = 40.0;  ///< perspective: full vertical angle, in (0, 180)
+    double height_m = 10.0;  ///< orthographic: world height of the picture
+    double near_m = 0.05;
+};
+
+enum class LightKind { directional, sun, point, spot };
+enum class ShadowMethod { none, map };
+/// Who receives shadows: `any` point outside solids (the papers' rule), or only the scene's own surfaces, where
+/// the interval of an open crossing may reach up to the next surface.
+enum class Receivers { any, static_only };
+
+struct ShadowSettings {
+    ShadowMethod method = ShadowMethod::map;
+    int resolution = 4096;   ///< texels per side, a power of two in [16, 16384]
+    int filter_px = 3;       ///< PCF kernel side: 1, 3 or 5 texels
+    Receivers receivers = Receivers::any;
+    double normal_offset_texels = 1.5;  ///< bias of receivers on open components only
+};
+
+struct Light {
+    std::string id;
+    LightKind kind = LightKind::directional;
+    Vec3d direction{0, -1, 0};  ///< unit, the way the light travels (directional, sun, spot)
+    Vec3d position{0, 0, 0};    ///< metres (point, spot)
+    Vec3f color{1, 1, 1};       ///< irradiance in W/m^2 per channel on a facing surface (directional, sun), or
+                                ///< radiant intensity in W/sr per channel (point, spot)
+    double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
+    double near_m = 0.05, range_m = 100;  ///< point and spot: shadow depth range; light ends smoothly at range_m
+    bool below_horizon = false;           ///< sun: contributes nothing
+    ShadowSettings shadow;
+};
+
+/// Ambient light: a gradient sky seen by every surface without occlusion, and the background.
+struct Sky {
+    Vec3f zenith{0.25f, 0.42f, 0.75f};   ///< radiance
+    Vec3f horizon{0.65f, 0.72f, 0.80f};
+    Vec3f ground{0.25f, 0.22f, 0.18f};
+    float ambient = 1.0f;                ///< scale of the light it sheds
+    bool visible = true;                 ///< false: background is black
+};
+
+enum class ToneCurve { linear, filmic };
+
+struct RenderSettings {
+    int width = 960, height = 540;  ///< pixels
+    int samples = 4;                ///< per pixel: 1, 4 or 16
+    double exposure_ev = 0.0;       ///< linear radiance is scaled by 2^exposure_ev
+    ToneCurve tone = ToneCurve::filmic;
+    Receivers receivers = Receivers::any;
+};
+
+enum class Aov { beauty, depth, normal, albedo, object, shadow };
+
+struct Output {
+    Aov aov = Aov::beauty;
+    std::string file;  ///< "####" stands for the frame number
+};
+
+/// Bounds that are checked before anything is allocated.
+struct Limits {
+    std::int64_t memory_mib = 4096;
+    std::int64_t triangles = 50'000'000;
+    std::int64_t texture_px = 16384;     ///< longest side
+    std::int64_t texture_mib = 1024;     ///< all decoded textures together
+    std::int64_t frames = 65536;
+    std::int64_t image_px = 16384;       ///< longest side of a frame
+};
+
+/// One frame's worth of scene: everything is in world space and final.
+struct Scene {
+    Mesh mesh;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    Camera camera;
+    std::vector<Light> lights;
+    Sky sky;
+    RenderSettings render;
+    std::vector<Output> outputs;
+    Limits limits;
+};
+
+}  // namespace obscura

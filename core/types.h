@@ -1,0 +1,42 @@
+#pragma once
+// Values that cross rooms.
+
+#include <cstdint>
+
+#include "core/vec.h"
+
+namespace obscura {
+
+/// Closed interval of light-space depths: every stored depth inside it gives the same shadow test for every
+/// receiver outside solids (Scandolo, Bauszat, Eisemann 2016, section 3). 0 <= entry <= exit <= 1;
+/// [1, 1] is background.
+struct DepthInterval {
+    float entry = 1.0f, exit = 1.0f;
+    friend bool operator==(const DepthInterval&, const DepthInterval&) = default;
+};
+
+/// Middle of the interval, inside it after rounding: the depth that a shadow map stores.
+constexpr float stored_depth(DepthInterval i) {
+    const float mid = 0.5f * i.entry + 0.5f * i.exit;
+    return mid < i.entry ? i.entry : (mid > i.exit ? i.exit : mid);
+}
+
+/// Map from world space to the texels of an image: to_map * (x, y, z, 1) = (X w, Y w, Z w, w), with X right
+/// and Y down in texels of a width x height grid (texel (i, j) has its centre at (i + 0.5, j + 0.5)) and
+/// depth Z growing away from the viewer. Z is affine in X and Y over any plane.
+///  - orthographic (w = 1): Z in [0, 1].
+///  - perspective light: Z = (1 - near/z) * far/(far - near), in [0, 1].
+///  - perspective camera: Z = -near/z, in [-1, 0): floats are dense near 0, so distant depths keep precision.
+/// Points with w < near_w lie before the near plane and are clipped.
+struct View {
+    Mat4 to_map;
+    int width = 0, height = 0;
+    bool perspective = false;
+    double near_w = 0.0;
+    float min_depth = 0.0f, max_depth = 1.0f;  ///< range that depths are clamped to
+};
+
+/// A view from a light.
+using LightView = View;
+
+}  // namespace obscura
