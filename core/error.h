@@ -22,7 +22,8 @@ enum class ExitCode : int {
 /// what() is "file:line:column: message" with the unknown parts left out.
 struct InputError : std::runtime_error {
     InputError(std::string file_, int line_, int column_, std::string message_);
-    InputError(std::string file_, std::string message_) : InputError(std::move(file_), 0, 0, std::move(message_)) {}
+    InputError(std::string file_, std::string message_)
+        : InputError(std::move(file_), 0, 0, std::move(message_)) {}
     std::string file;
     int line = 0, column = 0;
     std::string message;
@@ -33,7 +34,8 @@ struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A stated limit would be exceeded (exit 4): says which one, the value wanted and the setting that raises it.
+/// A stated limit would be exceeded (exit 4): says which one, the value wanted and the setting that raises
+/// it.
 struct LimitError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -48,7 +50,8 @@ struct OutputError : std::runtime_error {
 }  // namespace obscura
 
 /// Precondition, always on. Further arguments are text for the message: CHECK(a < b, fmt::format("a={}", a)).
-#define CHECK(expression, ...)                                                                        \
-    do {                                                                                              \
-        if (!(expression)) ::obscura::check_failed(#expression, __FILE__, __LINE__, ::std::string{__VA_ARGS__}); \
+#define CHECK(expression, ...)                                                                    \
+    do {                                                                                          \
+        if (!(expression))                                                                        \
+            ::obscura::check_failed(#expression, __FILE__, __LINE__, ::std::string{__VA_ARGS__}); \
     } while (false)

@@ -4,6 +4,8 @@
 
 namespace obscura {
 
-std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+std::string hash_text(std::uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
 
 }  // namespace obscura

@@ -15,18 +15,15 @@ struct Hasher {
 
     Hasher& bytes(const void* data, std::size_t size) {
         const auto* p = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < size; ++i) state = (state ^ p[i]) * 0x100000001b3u;
+        for (std::size_t i = 0; i < size; ++i)
+            state = (state ^ p[i]) * 0x100000001b3u;
         return *this;
     }
     /// T must have no padding: bytes that mean nothing would be hashed too.
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    Hasher& value(const T& v) {
-        return bytes(&v, sizeof v);
-    }
+    requires std::is_trivially_copyable_v<T> Hasher& value(const T& v) { return bytes(&v, sizeof v); }
     template <class T>
-        requires std::is_trivially_copyable_v<T>
-    Hasher& values(const std::vector<T>& v) {
+    requires std::is_trivially_copyable_v<T> Hasher& values(const std::vector<T>& v) {
         return bytes(v.data(), v.size() * sizeof(T));
     }
 };

@@ -21,8 +21,8 @@ struct ImageView {
         : data(data_), width(width_), height(height_), stride(stride_) {}
     /// A view of const pixels from a view of mutable ones.
     template <class U>
-        requires std::is_same_v<const U, T>
-    ImageView(ImageView<U> v) : ImageView(v.data, v.width, v.height, v.stride) {}  // NOLINT: implicit on purpose
+    requires std::is_same_v<const U, T> ImageView(ImageView<U> v)
+        : ImageView(v.data, v.width, v.height, v.stride) {}  // NOLINT: implicit on purpose
 
     T* row(int y) const { return data + stride * y; }
     T& operator()(int x, int y) const { return data[stride * y + x]; }

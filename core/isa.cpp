@@ -13,8 +13,10 @@ bool isa_supported(Isa isa) {
     // __builtin_cpu_supports also asks the operating system (XGETBV) for the wide register state.
     switch (isa) {
         case Isa::ref:
-        case Isa::sse2: return true;
-        case Isa::avx2: return __builtin_cpu_supports("avx2") != 0;
+        case Isa::sse2:
+            return true;
+        case Isa::avx2:
+            return __builtin_cpu_supports("avx2") != 0;
         case Isa::avx512bw:
             return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
                    __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
@@ -36,7 +38,9 @@ std::vector<Isa> supported_isas() {
     return all;
 }
 
-std::string_view isa_name(Isa isa) { return names[static_cast<std::size_t>(isa)]; }
+std::string_view isa_name(Isa isa) {
+    return names[static_cast<std::size_t>(isa)];
+}
 
 std::optional<Isa> parse_isa(std::string_view text) {
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -27,13 +27,22 @@ struct Exec {
 
 }  // namespace obscura
 
-/// Calls the twin of a kernel that `exec_isa` asks for. FN is declared in ref::, sse2::, avx2:: and avx512bw::.
-#define OBSCURA_DISPATCH(exec_isa, FN, ...)                               \
-    do {                                                                  \
-        switch (exec_isa) {                                               \
-            case ::obscura::Isa::ref: ref::FN(__VA_ARGS__); break;           \
-            case ::obscura::Isa::sse2: sse2::FN(__VA_ARGS__); break;         \
-            case ::obscura::Isa::avx2: avx2::FN(__VA_ARGS__); break;         \
-            case ::obscura::Isa::avx512bw: avx512bw::FN(__VA_ARGS__); break; \
-        }                                                                 \
+/// Calls the twin of a kernel that `exec_isa` asks for. FN is declared in ref::, sse2::, avx2:: and
+/// avx512bw::.
+#define OBSCURA_DISPATCH(exec_isa, FN, ...) \
+    do {                                    \
+        switch (exec_isa) {                 \
+            case ::obscura::Isa::ref:       \
+                ref::FN(__VA_ARGS__);       \
+                break;                      \
+            case ::obscura::Isa::sse2:      \
+                sse2::FN(__VA_ARGS__);      \
+                break;                      \
+            case ::obscura::Isa::avx2:      \
+                avx2::FN(__VA_ARGS__);      \
+                break;                      \
+            case ::obscura::Isa::avx512bw:  \
+                avx512bw::FN(__VA_ARGS__);  \
+                break;                      \
+        }                                   \
     } while (false)

@@ -18,7 +18,8 @@ int hardware_threads() {
 void parallel_for_raw(std::size_t count, const Exec& exec, void (*body)(void*, std::size_t), void* context) {
     const int threads = exec.threads > 0 ? exec.threads : hardware_threads();
     if (threads == 1 || count <= 1) {
-        for (std::size_t i = 0; i < count; ++i) body(context, i);
+        for (std::size_t i = 0; i < count; ++i)
+            body(context, i);
         return;
     }
     // More threads than cores are allowed on purpose: determinism tests ask for 7 on any machine.
@@ -29,7 +30,8 @@ void parallel_for_raw(std::size_t count, const Exec& exec, void (*body)(void*, s
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, count, 1),
             [&](const tbb::blocked_range<std::size_t>& range) {
-                for (std::size_t i = range.begin(); i != range.end(); ++i) body(context, i);
+                for (std::size_t i = range.begin(); i != range.end(); ++i)
+                    body(context, i);
             },
             tbb::simple_partitioner());
     });

@@ -23,7 +23,7 @@ endfunction()
 
 set(OBSCURA_ISA_FLAGS_sse2 -msse2)
 set(OBSCURA_ISA_FLAGS_avx2 -mavx2 -mno-fma)
-set(OBSCURA_ISA_FLAGS_avx512bw -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl -mno-fma
+set(OBSCURA_ISA_FLAGS_avx512bw -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl
     -mprefer-vector-width=512)
 
 function(add_simd_kernels name)
@@ -34,7 +34,8 @@ function(add_simd_kernels name)
     target_include_directories(${objects} PRIVATE
       $<TARGET_PROPERTY:obscura_${name},INTERFACE_INCLUDE_DIRECTORIES>)
     target_compile_definitions(${objects} PRIVATE OBSCURA_ISA=${isa} OBSCURA_ISA_${isa}=1)
-    target_compile_options(${objects} PRIVATE ${OBSCURA_ISA_FLAGS_${isa}} -O3 -fno-exceptions -fno-rtti)
+    target_compile_options(${objects} PRIVATE ${OBSCURA_ISA_FLAGS_${isa}} -O3 -DNDEBUG
+      -fno-exceptions -fno-rtti)
     target_sources(obscura_${name} PRIVATE $<TARGET_OBJECTS:${objects}>)
     set_property(GLOBAL APPEND PROPERTY OBSCURA_KERNEL_OBJECTS $<TARGET_OBJECTS:${objects}>)
   endforeach()

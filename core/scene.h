@@ -27,7 +27,7 @@ struct Material {
     float metallic = 0.0f;               ///< in [0, 1]
     Vec3f emission{0, 0, 0};             ///< emitted radiance, W / (m^2 sr) per channel
     std::int32_t texture = -1;           ///< index into Scene::textures, multiplies base_color; -1 = none
-    float translucency = 0.0f;           ///< share of light that passes thin sheets diffusely (leaves), in [0, 1]
+    float translucency = 0.0f;  ///< share of light that passes thin sheets diffusely (leaves), in [0, 1]
 };
 
 enum class CameraKind { perspective, orthographic };
@@ -42,14 +42,14 @@ struct Camera {
 
 enum class LightKind { directional, sun, point, spot };
 enum class ShadowMethod { none, map };
-/// Who receives shadows: `any` point outside solids (the papers' rule), or only the scene's own surfaces, where
-/// the interval of an open crossing may reach up to the next surface.
+/// Who receives shadows: `any` point outside solids (the papers' rule), or only the scene's own surfaces,
+/// where the interval of an open crossing may reach up to the next surface.
 enum class Receivers { any, static_only };
 
 struct ShadowSettings {
     ShadowMethod method = ShadowMethod::map;
-    int resolution = 4096;   ///< texels per side, a power of two in [16, 16384]
-    int filter_px = 3;       ///< PCF kernel side: 1, 3 or 5 texels
+    int resolution = 4096;  ///< texels per side, a power of two in [16, 16384]
+    int filter_px = 3;      ///< PCF kernel side: 1, 3 or 5 texels
     Receivers receivers = Receivers::any;
     double normal_offset_texels = 1.5;  ///< bias of receivers on open components only
 };
@@ -59,21 +59,22 @@ struct Light {
     LightKind kind = LightKind::directional;
     Vec3d direction{0, -1, 0};  ///< unit, the way the light travels (directional, sun, spot)
     Vec3d position{0, 0, 0};    ///< metres (point, spot)
-    Vec3f color{1, 1, 1};       ///< irradiance in W/m^2 per channel on a facing surface (directional, sun), or
-                                ///< radiant intensity in W/sr per channel (point, spot)
+    Vec3f color{1, 1, 1};  ///< irradiance in W/m^2 per channel on a facing surface (directional, sun), or
+                           ///< radiant intensity in W/sr per channel (point, spot)
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
-    double near_m = 0.05, range_m = 100;  ///< point and spot: shadow depth range; light ends smoothly at range_m
-    bool below_horizon = false;           ///< sun: contributes nothing
+    double near_m = 0.05,
+           range_m = 100;        ///< point and spot: shadow depth range; light ends smoothly at range_m
+    bool below_horizon = false;  ///< sun: contributes nothing
     ShadowSettings shadow;
 };
 
 /// Ambient light: a gradient sky seen by every surface without occlusion, and the background.
 struct Sky {
-    Vec3f zenith{0.25f, 0.42f, 0.75f};   ///< radiance
+    Vec3f zenith{0.25f, 0.42f, 0.75f};  ///< radiance
     Vec3f horizon{0.65f, 0.72f, 0.80f};
     Vec3f ground{0.25f, 0.22f, 0.18f};
-    float ambient = 1.0f;                ///< scale of the light it sheds
-    bool visible = true;                 ///< false: background is black
+    float ambient = 1.0f;  ///< scale of the light it sheds
+    bool visible = true;   ///< false: background is black
 };
 
 enum class ToneCurve { linear, filmic };
@@ -97,10 +98,10 @@ struct Output {
 struct Limits {
     std::int64_t memory_mib = 4096;
     std::int64_t triangles = 50'000'000;
-    std::int64_t texture_px = 16384;     ///< longest side
-    std::int64_t texture_mib = 1024;     ///< all decoded textures together
+    std::int64_t texture_px = 16384;  ///< longest side
+    std::int64_t texture_mib = 1024;  ///< all decoded textures together
     std::int64_t frames = 65536;
-    std::int64_t image_px = 16384;       ///< longest side of a frame
+    std::int64_t image_px = 16384;  ///< longest side of a frame
 };
 
 /// One frame's worth of scene: everything is in world space and final.
