@@ -1,0 +1,15 @@
+#pragma once
+// Every key of the scene format. Start reading at scene_schema_root().
+
+#include "app/scene_schema.h"
+
+namespace obscura {
+
+const TableSpec& scene_schema_root();
+const TableSpec& camera_table();
+const TableSpec& mesh_table();
+const TableSpec& light_table();
+const TableSpec& shadow_table();
+const TableSpec& frames_table();
+
+}  // namespace obscura

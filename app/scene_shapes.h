@@ -1,0 +1,25 @@
+#pragma once
+// The shapes a [[mesh]] can ask for by name. Adding a generator is one entry in scene_shapes.cpp: its keys
+// with ranges, defaults and words, how many triangles it will make, and the call.
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "app/scene_schema.h"
+#include "scenes/build.h"
+
+namespace obscura {
+
+struct ShapeSpec {
+    VariantSpec variant;                                           ///< name, description, keys
+    std::function<std::int64_t(const SceneTable&)> max_triangles;  ///< a bound, known before anything is made
+    std::function<GeneratedModel(const SceneTable&)> make;         ///< without materials: one default slot
+    std::function<std::string(const SceneTable&)> problem =
+        nullptr;  ///< what is wrong between keys; "" = nothing
+};
+
+/// All shapes but "file".
+const std::vector<ShapeSpec>& shapes();
+
+}  // namespace obscura

@@ -1,0 +1,83 @@
+#pragma once
+// The tree a scene file is read into: plain values with the place they were written at. It knows nothing of
+// TOML's syntax (scene_file_parse.cpp does) nor of what keys mean (scene_keys.cpp does).
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace obscura {
+
+/// Where a value was written. `source` indexes the names of the document's sources: 0 is the scene file, then
+/// one per override; -1 means that the value is a default and stands nowhere. Lines and columns count from 1.
+struct Place {
+    int source = -1, line = 0, column = 0;
+};
+
+/// Date and time of day with its offset from UTC.
+struct DateTime {
+    int year = 2000, month = 1, day = 1, hour = 0, minute = 0, second = 0;
+    std::int64_t nanosecond = 0;
+    bool has_offset = false;
+    int offset_minutes = 0;
+    friend bool operator==(const DateTime&, const DateTime&) = default;
+};
+
+/// Width and height in pixels.
+struct Size2 {
+    int width = 0, height = 0;
+};
+
+struct SceneValue;
+struct SceneEntry;
+using SceneList = std::vector<SceneValue>;
+
+struct SceneTable {
+    std::vector<SceneEntry> entries;
+
+    const SceneEntry* find(std::string_view key) const;
+    SceneEntry* find(std::string_view key);
+    bool has(std::string_view key) const { return find(key) != nullptr; }
+    /// Replaces the value of `key`, or appends it.
+    void set(std::string_view key, SceneValue value);
+    void erase(std::string_view key);
+};
+
+struct SceneValue {
+    std::variant<bool, std::int64_t, double, std::string, DateTime, SceneList, SceneTable> data;
+    Place place;
+};
+
+struct SceneEntry {
+    std::string key;
+    Place place;
+    SceneValue value;
+};
+
+// Makers of values that stand nowhere: defaults.
+SceneValue value_of(bool v);
+SceneValue value_of(std::int64_t v);
+SceneValue value_of(double v);
+SceneValue value_of(const char* v);
+SceneValue value_of(Size2 v);
+SceneValue value_of(Vec3d v);
+SceneValue value_of(Vec3f v);  ///< through the shortest decimal that gives the same float: 0.8f is 0.8
+
+// Readers of validated tables. The key must be there with that type: the schema saw to it.
+bool boolean(const SceneTable& table, std::string_view key);
+std::int64_t integer(const SceneTable& table, std::string_view key);
+double number(const SceneTable& table, std::string_view key);
+const std::string& text(const SceneTable& table, std::string_view key);
+Vec3d vec3(const SceneTable& table, std::string_view key);
+Size2 size2(const SceneTable& table, std::string_view key);
+DateTime date_time(const SceneTable& table, std::string_view key);
+const SceneTable& subtable(const SceneTable& table, std::string_view key);
+/// The tables of a list; empty when the key is absent.
+std::vector<const SceneTable*> subtables(const SceneTable& table, std::string_view key);
+Place place_of(const SceneTable& table, std::string_view key);
+
+}  // namespace obscura
