@@ -195,6 +195,31 @@ OBSCURA_COMPARE(less_equal, <=)
 OBSCURA_COMPARE(equal, ==)
 #undef OBSCURA_COMPARE
 
+/// a >= b; false where either is a NaN.
+OBSCURA_INLINE Mask greater_equal(const F64& a, const F64& b) {
+    Mask m;
+#if defined(OBSCURA_ISA_avx512bw)
+    const unsigned lo = _mm512_cmp_pd_mask(a.r[0], b.r[0], _CMP_GE_OQ);
+    const unsigned hi = _mm512_cmp_pd_mask(a.r[1], b.r[1], _CMP_GE_OQ);
+    m.r[0] = Mask::Reg(static_cast<__mmask16>(lo | (hi << 8)));
+#elif defined(OBSCURA_ISA_avx2)
+    for (int k = 0; k < 2; ++k) {
+        const __m256 lo = _mm256_castpd_ps(_mm256_cmp_pd(a.r[2 * k], b.r[2 * k], _CMP_GE_OQ));
+        const __m256 hi = _mm256_castpd_ps(_mm256_cmp_pd(a.r[2 * k + 1], b.r[2 * k + 1], _CMP_GE_OQ));
+        const __m256 picked = _mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0));
+        m.r[k] = Mask::Reg(_mm256_castpd_ps(
+            _mm256_permute4x64_pd(_mm256_castps_pd(picked), _MM_SHUFFLE(3, 1, 2, 0))));
+    }
+#else
+    for (int k = 0; k < 4; ++k) {
+        const __m128 lo = _mm_castpd_ps(_mm_cmpge_pd(a.r[2 * k], b.r[2 * k]));
+        const __m128 hi = _mm_castpd_ps(_mm_cmpge_pd(a.r[2 * k + 1], b.r[2 * k + 1]));
+        m.r[k] = Mask::Reg(_mm_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0)));
+    }
+#endif
+    return m;
+}
+
 OBSCURA_INLINE Mask operator&(const Mask& a, const Mask& b) {
     Mask m;
     for (int k = 0; k < F32::regs; ++k)

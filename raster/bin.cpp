@@ -1,0 +1,106 @@
+#include "raster/bin.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/parallel.h"
+#include "raster/coverage.h"
+
+namespace obscura {
+namespace {
+
+/// Work is cut into this many chunks of consecutive blocks, however many threads there are.
+constexpr std::size_t max_chunks = 16;
+
+struct TileRange {
+    int x0, y0, x1, y1;  ///< inclusive
+};
+
+/// Calls fn(tile index) for each tile that the record may touch.
+template <class Fn>
+void for_each_tile(const TriangleRecord& t, const TileBins& bins, int shift, Fn&& fn) {
+    const int bits = subtexel_bits + shift;
+    const TileRange r = {std::max(std::min({t.x[0], t.x[1], t.x[2]}) >> bits, 0),
+                         std::max(std::min({t.y[0], t.y[1], t.y[2]}) >> bits, 0),
+                         std::min(std::max({t.x[0], t.x[1], t.x[2]}) >> bits, bins.columns - 1),
+                         std::min(std::max({t.y[0], t.y[1], t.y[2]}) >> bits, bins.rows - 1)};
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(bins.columns) + static_cast<std::size_t>(x);
+    };
+    // Small boxes: taking a tile too many costs less than asking.
+    if ((r.x1 - r.x0) + (r.y1 - r.y0) <= 1) {
+        for (int y = r.y0; y <= r.y1; ++y) {
+            for (int x = r.x0; x <= r.x1; ++x) fn(index(x, y));
+        }
+        return;
+    }
+    const EdgeFunction e[3] = {edge_function(t, 0), edge_function(t, 1), edge_function(t, 2)};
+    const std::int64_t side = std::int64_t{1} << bits;
+    for (int y = r.y0; y <= r.y1; ++y) {
+        for (int x = r.x0; x <= r.x1; ++x) {
+            // A tile is out when its most inner corner is outside one edge.
+            const auto outside = [&](const EdgeFunction& f) {
+                return f.at((x + (f.A > 0)) * side, (y + (f.B > 0)) * side) < 0;
+            };
+            if (!outside(e[0]) && !outside(e[1]) && !outside(e[2])) fn(index(x, y));
+        }
+    }
+}
+
+/// Calls fn(record, index) for the records of chunk c.
+template <class Fn>
+void for_each_record(const TriangleSetup& setup, std::size_t c, std::size_t chunks, Fn&& fn) {
+    const std::size_t blocks = setup.blocks.size();
+    for (std::size_t b = blocks * c / chunks; b < blocks * (c + 1) / chunks; ++b) {
+        const RecordBlock& block = setup.blocks[b];
+        for (std::size_t i = block.begin; i < block.begin + block.count; ++i) fn(setup.records[i], i);
+    }
+}
+
+}  // namespace
+
+void bin_records(const TriangleSetup& setup, int width, int height, int tile, const Exec& exec, TileBins& bins) {
+    CHECK(std::has_single_bit(static_cast<unsigned>(tile)));
+    const int shift = std::countr_zero(static_cast<unsigned>(tile));
+    bins.tile = tile;
+    bins.columns = (width + tile - 1) / tile;
+    bins.rows = (height + tile - 1) / tile;
+    const std::size_t tiles = static_cast<std::size_t>(bins.columns) * static_cast<std::size_t>(bins.rows);
+    const std::size_t chunks = std::clamp<std::size_t>(setup.blocks.size(), 1, max_chunks);
+
+    // Count.
+    bins.counts.reset(chunks * tiles);
+    parallel_for(chunks, exec, [&](std::size_t c) {
+        std::uint32_t* counts = bins.counts.data() + c * tiles;
+        std::fill_n(counts, tiles, 0u);
+        for_each_record(setup, c, chunks, [&](const TriangleRecord& t, std::size_t) {
+            for_each_tile(t, bins, shift, [&](std::size_t i) { ++counts[i]; });
+        });
+    });
+
+    // Prefix sum: tile by tile, chunk by chunk; a count becomes the place of the chunk's first item.
+    bins.first.reset(tiles + 1);
+    std::uint64_t next = 0;
+    for (std::size_t i = 0; i < tiles; ++i) {
+        bins.first[i] = static_cast<std::uint32_t>(next);
+        for (std::size_t c = 0; c < chunks; ++c) {
+            const std::uint32_t n = bins.counts[c * tiles + i];
+            bins.counts[c * tiles + i] = static_cast<std::uint32_t>(next);
+            next += n;
+        }
+        if (next > 0xffffffffu) throw LimitError("too many triangles for one map: tile lists pass 2^32 entries");
+    }
+    bins.first[tiles] = static_cast<std::uint32_t>(next);
+    bins.items.reset(next);
+
+    // Scatter.
+    parallel_for(chunks, exec, [&](std::size_t c) {
+        std::uint32_t* place = bins.counts.data() + c * tiles;
+        for_each_record(setup, c, chunks, [&](const TriangleRecord& t, std::size_t i) {
+            for_each_tile(t, bins, shift,
+                          [&](std::size_t k) { bins.items[place[k]++] = static_cast<std::uint32_t>(i); });
+        });
+    });
+}
+
+}  // namespace obscura

@@ -1,0 +1,47 @@
+#pragma once
+// Views: how cameras and lights look at the world (see View in core/types.h).
+
+#include <vector>
+
+#include "core/mesh.h"
+#include "core/scene.h"
+#include "core/types.h"
+
+namespace obscura {
+
+/// Axis-aligned box; empty when low > high.
+struct Bounds {
+    Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+    bool empty() const { return low.x > high.x; }
+};
+Bounds bounds_of(const Mesh& mesh);
+
+/// Orthographic view along `direction` (unit, the way the light travels) that just holds `bounds`:
+/// resolution x resolution square texels. Depth 0 and 1 lie a little outside the bounds.
+LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int resolution);
+
+/// Perspective view from `position` along `direction` with full angle `angle_deg` in (0, 180) both ways.
+LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m, double far_m,
+                                 int resolution);
+
+/// The six faces of a cube around `position`, in the order +X -X +Y -Y +Z -Z.
+std::vector<LightView> cube_light_views(Vec3d position, double near_m, double far_m, int resolution);
+/// Which of the six faces sees direction d.
+int cube_face(Vec3f d);
+
+/// Depth range of orthographic cameras, from the eye: far beyond any scene; floats stay dense near the eye.
+constexpr double orthographic_camera_range_m = 1e6;
+
+/// The camera's view of a width x height picture (Z = -near/z for perspective).
+View camera_view(const Camera& camera, int width, int height);
+
+/// Orthonormal right, up, forward; `up` may not be parallel to `forward` (another up is then chosen).
+struct Basis {
+    Vec3d right, up, forward;
+};
+Basis look_basis(Vec3d forward, Vec3d up);
+
+/// Position in map space: (X, Y, Z), X and Y in texels. w <= 0 gives points behind the viewer.
+Vec3d to_map_space(const View& view, Vec3d world);
+
+}  // namespace obscura
