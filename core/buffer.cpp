@@ -29,6 +29,8 @@ void* allocate_pages(std::size_t bytes) {
     return p;
 }
 
-void free_pages(void* p, std::size_t) noexcept { std::free(p); }
+void free_pages(void* p, std::size_t) noexcept {
+    std::free(p);
+}
 
 }  // namespace obscura

@@ -15,7 +15,7 @@ void free_pages(void* p, std::size_t bytes) noexcept;
 
 /// Owns `size` values, uninitialised.
 template <class T>
-    requires std::is_trivially_copyable_v<T>
+requires std::is_trivially_copyable_v<T>
 class Buffer {
   public:
     Buffer() = default;

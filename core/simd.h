@@ -83,6 +83,26 @@ OBSCURA_INLINE void store(T* p, const Lanes<T>& v) {
     for (int k = 0; k < Lanes<T>::regs; ++k)
         v.r[k].store_unaligned(p + k * Lanes<T>::width);
 }
+/// a0 b0 a1 b1 ... a15 b15.
+OBSCURA_INLINE void store_interleaved(float* p, const F32& a, const F32& b) {
+#if defined(OBSCURA_ISA_avx512bw)
+    const __m512i low = _mm512_set_epi32(23, 7, 22, 6, 21, 5, 20, 4, 19, 3, 18, 2, 17, 1, 16, 0);
+    const __m512i high = _mm512_set_epi32(31, 15, 30, 14, 29, 13, 28, 12, 27, 11, 26, 10, 25, 9, 24, 8);
+    _mm512_storeu_ps(p, _mm512_permutex2var_ps(a.r[0], low, b.r[0]));
+    _mm512_storeu_ps(p + 16, _mm512_permutex2var_ps(a.r[0], high, b.r[0]));
+#elif defined(OBSCURA_ISA_avx2)
+    for (int k = 0; k < 2; ++k) {
+        const __m256 low = _mm256_unpacklo_ps(a.r[k], b.r[k]), high = _mm256_unpackhi_ps(a.r[k], b.r[k]);
+        _mm256_storeu_ps(p + 16 * k, _mm256_permute2f128_ps(low, high, 0x20));
+        _mm256_storeu_ps(p + 16 * k + 8, _mm256_permute2f128_ps(low, high, 0x31));
+    }
+#else
+    for (int k = 0; k < 4; ++k) {
+        _mm_storeu_ps(p + 8 * k, _mm_unpacklo_ps(a.r[k], b.r[k]));
+        _mm_storeu_ps(p + 8 * k + 4, _mm_unpackhi_ps(a.r[k], b.r[k]));
+    }
+#endif
+}
 /// 0, 1, ..., 15.
 OBSCURA_INLINE I32 lane_index() {
     alignas(64) static constexpr std::int32_t index[16] = {0, 1, 2,  3,  4,  5,  6,  7,
@@ -207,8 +227,8 @@ OBSCURA_INLINE Mask greater_equal(const F64& a, const F64& b) {
         const __m256 lo = _mm256_castpd_ps(_mm256_cmp_pd(a.r[2 * k], b.r[2 * k], _CMP_GE_OQ));
         const __m256 hi = _mm256_castpd_ps(_mm256_cmp_pd(a.r[2 * k + 1], b.r[2 * k + 1], _CMP_GE_OQ));
         const __m256 picked = _mm256_shuffle_ps(lo, hi, _MM_SHUFFLE(2, 0, 2, 0));
-        m.r[k] = Mask::Reg(_mm256_castpd_ps(
-            _mm256_permute4x64_pd(_mm256_castps_pd(picked), _MM_SHUFFLE(3, 1, 2, 0))));
+        m.r[k] = Mask::Reg(
+            _mm256_castpd_ps(_mm256_permute4x64_pd(_mm256_castps_pd(picked), _MM_SHUFFLE(3, 1, 2, 0))));
     }
 #else
     for (int k = 0; k < 4; ++k) {

@@ -25,12 +25,14 @@ void for_each_tile(const TriangleRecord& t, const TileBins& bins, int shift, Fn&
                          std::min(std::max({t.x[0], t.x[1], t.x[2]}) >> bits, bins.columns - 1),
                          std::min(std::max({t.y[0], t.y[1], t.y[2]}) >> bits, bins.rows - 1)};
     const auto index = [&](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(bins.columns) + static_cast<std::size_t>(x);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(bins.columns) +
+               static_cast<std::size_t>(x);
     };
     // Small boxes: taking a tile too many costs less than asking.
     if ((r.x1 - r.x0) + (r.y1 - r.y0) <= 1) {
         for (int y = r.y0; y <= r.y1; ++y) {
-            for (int x = r.x0; x <= r.x1; ++x) fn(index(x, y));
+            for (int x = r.x0; x <= r.x1; ++x)
+                fn(index(x, y));
         }
         return;
     }
@@ -53,13 +55,15 @@ void for_each_record(const TriangleSetup& setup, std::size_t c, std::size_t chun
     const std::size_t blocks = setup.blocks.size();
     for (std::size_t b = blocks * c / chunks; b < blocks * (c + 1) / chunks; ++b) {
         const RecordBlock& block = setup.blocks[b];
-        for (std::size_t i = block.begin; i < block.begin + block.count; ++i) fn(setup.records[i], i);
+        for (std::size_t i = block.begin; i < block.begin + block.count; ++i)
+            fn(setup.records[i], i);
     }
 }
 
 }  // namespace
 
-void bin_records(const TriangleSetup& setup, int width, int height, int tile, const Exec& exec, TileBins& bins) {
+void bin_records(const TriangleSetup& setup, int width, int height, int tile, const Exec& exec,
+                 TileBins& bins) {
     CHECK(std::has_single_bit(static_cast<unsigned>(tile)));
     const int shift = std::countr_zero(static_cast<unsigned>(tile));
     bins.tile = tile;
@@ -88,7 +92,8 @@ void bin_records(const TriangleSetup& setup, int width, int height, int tile, co
             bins.counts[c * tiles + i] = static_cast<std::uint32_t>(next);
             next += n;
         }
-        if (next > 0xffffffffu) throw LimitError("too many triangles for one map: tile lists pass 2^32 entries");
+        if (next > 0xffffffffu)
+            throw LimitError("too many triangles for one map: tile lists pass 2^32 entries");
     }
     bins.first[tiles] = static_cast<std::uint32_t>(next);
     bins.items.reset(next);

@@ -15,8 +15,8 @@ constexpr double guard_band_texels = 1048576.0;
 using ClipVertex = Vec4d;
 
 /// Cuts the polygon by the near plane and the four sides of the guard band (Sutherland, Hodgman 1974).
-/// A crossing of an edge is computed from its two ends in one fixed order, so the two triangles at an edge get
-/// the same point whichever way they walk it. Empty when nothing is left.
+/// A crossing of an edge is computed from its two ends in one fixed order, so the two triangles at an edge
+/// get the same point whichever way they walk it. Empty when nothing is left.
 std::vector<ClipVertex> clip_polygon(std::vector<ClipVertex> corners, const View& view);
 
 }  // namespace obscura

@@ -1,9 +1,9 @@
 #pragma once
 // Exact coverage and the one depth formula, sample by sample: the definition that every kernel must match.
 //
-// J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988, for the edge functions. Ours are
-// exact: vertices on a 24.8 grid, products in 64 bits, which holds for maps of up to 2^20 x 2^20 texels with a
-// guard band of the same size around them (|edge function| < 2^61).
+// J. Pineda, "A Parallel Algorithm for Polygon Rasterization", SIGGRAPH 1988, for the edge functions. Ours
+// are exact: vertices on a 24.8 grid, products in 64 bits, which holds for maps of up to 2^20 x 2^20 texels
+// with a guard band of the same size around them (|edge function| < 2^61).
 
 #include <cstdint>
 
@@ -21,8 +21,8 @@ struct EdgeFunction {
 ///
 /// A sample exactly on an edge must belong to one of the two triangles that share it. Think of the sample as
 /// moved by (e, e^2) for a vanishing e > 0: it is inside when A > 0, or A = 0 and B > 0 (the top-left rule);
-/// otherwise E = 0 must count as outside, which in integers is E - 1 >= 0. The moved sample lies on no edge at
-/// all, so fronts and backs of a closed mesh balance at every sample.
+/// otherwise E = 0 must count as outside, which in integers is E - 1 >= 0. The moved sample lies on no edge
+/// at all, so fronts and backs of a closed mesh balance at every sample.
 inline EdgeFunction edge_function(const TriangleRecord& t, int k) {
     const int n = k == 2 ? 0 : k + 1;
     EdgeFunction e;

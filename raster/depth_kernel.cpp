@@ -9,7 +9,9 @@ namespace {
 
 struct NearestDepth {
     float* depth;
-    OBSCURA_INLINE void covered(std::int32_t at, const F32& z) { store(depth + at, min(z, load(depth + at))); }
+    OBSCURA_INLINE void covered(std::int32_t at, const F32& z) {
+        store(depth + at, min(z, load(depth + at)));
+    }
     OBSCURA_INLINE void partial(std::int32_t at, const Mask& inside, const F32& z) {
         const F32 old = load(depth + at);
         store(depth + at, select(inside, min(z, old), old));
@@ -37,10 +39,11 @@ struct NearestTriangle {
 
 }  // namespace
 
-void depth_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count, const TileRect& tile,
-                float* depth) noexcept {
+void depth_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
+                const TileRect& tile, float* depth) noexcept {
     NearestDepth nearest{depth};
-    for (std::size_t i = 0; i < count; ++i) walk_triangle(records[list[i]], tile, nearest);
+    for (std::size_t i = 0; i < count; ++i)
+        walk_triangle(records[list[i]], tile, nearest);
 }
 
 void visibility_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,

@@ -26,10 +26,12 @@ void depth_map(const Mesh& mesh, const View& view, const SetupParams& params, co
             const TileRect tile{column * tile_side, row * tile_side, tile_side, tile_side};
             const auto list = bins.list(column, row);
             std::fill(std::begin(depth), std::end(depth), view.max_depth);
-            OBSCURA_DISPATCH(exec.isa, depth_tile, scratch.setup.records.data(), list.data(), list.size(), tile, depth);
+            OBSCURA_DISPATCH(exec.isa, depth_tile, scratch.setup.records.data(), list.data(), list.size(),
+                             tile, depth);
             const int width = std::min(tile_side, view.width - tile.x0);
             const int height = std::min(tile_side, view.height - tile.y0);
-            for (int y = 0; y < height; ++y) std::copy_n(depth + y * tile_side, width, &out(tile.x0, tile.y0 + y));
+            for (int y = 0; y < height; ++y)
+                std::copy_n(depth + y * tile_side, width, &out(tile.x0, tile.y0 + y));
         }
     });
 }

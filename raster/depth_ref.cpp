@@ -21,8 +21,8 @@ void for_each_sample(const TriangleRecord& t, const TileRect& tile, Fn&& fn) {
 
 }  // namespace
 
-void depth_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count, const TileRect& tile,
-                float* depth) noexcept {
+void depth_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
+                const TileRect& tile, float* depth) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         for_each_sample(records[list[i]], tile, [&](std::int32_t at, float z) {
             if (z < depth[at]) depth[at] = z;

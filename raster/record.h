@@ -1,5 +1,6 @@
 #pragma once
-// What a triangle is to the sample loops, and the rectangle of texels they work on. POD: kernels include this.
+// What a triangle is to the sample loops, and the rectangle of texels they work on. POD: kernels include
+// this.
 
 #include <cstdint>
 
@@ -9,16 +10,18 @@ namespace obscura {
 constexpr int subtexel_bits = 8;
 constexpr std::int32_t subtexel_one = 1 << subtexel_bits;
 
-/// How a ray from the viewer meets a triangle. The order is the order of crossings at equal depth: entries come
-/// before exits, so touching solids merge, and a sheet lying on a solid's face counts as part of the solid.
+/// How a ray from the viewer meets a triangle. The order is the order of crossings at equal depth: entries
+/// come before exits, so touching solids merge, and a sheet lying on a solid's face counts as part of the
+/// solid.
 enum class Crossing : std::uint32_t { entry = 0, open = 1, exit = 2 };
 
 /// One triangle (or a piece of one that was clipped) in map space: 64 bytes, one cache line.
 struct TriangleRecord {
-    std::int32_t x[3], y[3];  ///< fixed point, `subtexel_bits`; turned so that the edge functions are positive inside
-    double a, b, c;           ///< depth at map position (X, Y): float(a X + (b Y + c)), clamped to [zmin, zmax]
-    float zmin, zmax;         ///< depth range of the whole planar face
-    std::uint32_t triangle;   ///< index into the mesh
+    std::int32_t x[3],
+        y[3];        ///< fixed point, `subtexel_bits`; turned so that the edge functions are positive inside
+    double a, b, c;  ///< depth at map position (X, Y): float(a X + (b Y + c)), clamped to [zmin, zmax]
+    float zmin, zmax;        ///< depth range of the whole planar face
+    std::uint32_t triangle;  ///< index into the mesh
     Crossing crossing;
 };
 static_assert(sizeof(TriangleRecord) == 64);

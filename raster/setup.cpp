@@ -20,9 +20,12 @@ std::int32_t ordered(float z) {
     const auto bits = std::bit_cast<std::int32_t>(z);
     return bits < 0 ? bits ^ 0x7fffffff : bits;
 }
-float from_ordered(std::int32_t i) { return std::bit_cast<float>(i < 0 ? i ^ 0x7fffffff : i); }
+float from_ordered(std::int32_t i) {
+    return std::bit_cast<float>(i < 0 ? i ^ 0x7fffffff : i);
+}
 
-// Minima and maxima do not depend on the order they are taken in, so these atomics keep results deterministic.
+// Minima and maxima do not depend on the order they are taken in, so these atomics keep results
+// deterministic.
 void lower_to(std::int32_t& target, std::int32_t value) {
     const std::atomic_ref<std::int32_t> shared(target);
     std::int32_t seen = shared.load(std::memory_order_relaxed);
@@ -133,7 +136,8 @@ class BlockSetup {
             y_low >= view_.height * subtexel_one) {
             return;
         }
-        if (params_.centre_samples_only && (between_centres(x_low, x_high) || between_centres(y_low, y_high))) {
+        if (params_.centre_samples_only &&
+            (between_centres(x_low, x_high) || between_centres(y_low, y_high))) {
             return;
         }
         const std::int64_t area = static_cast<std::int64_t>(q.x - p.x) * (r.y - p.y) -
@@ -148,14 +152,15 @@ class BlockSetup {
         if (front) std::swap(q, r);
 
         const DepthPlane& plane = setup_.planes[mesh_.face[t]];
-        *out_++ = {{p.x, q.x, r.x}, {p.y, q.y, r.y}, plane.a,    plane.b, plane.c,
-                   plane.zmin,      plane.zmax,      t,          crossing};
+        *out_++ = {{p.x, q.x, r.x}, {p.y, q.y, r.y}, plane.a, plane.b, plane.c,
+                   plane.zmin,      plane.zmax,      t,       crossing};
     }
 
     void emit_clipped(std::uint32_t t, const Triangle& tri) {
         std::vector<ClipVertex> corners(3);
         for (int k = 0; k < 3; ++k) {
-            // The same operations in the same order as transform_vertices: an untouched corner must snap alike.
+            // The same operations in the same order as transform_vertices: an untouched corner must snap
+            // alike.
             const Vec3d p = to_double(mesh_.positions[tri.v[k]]);
             corners[static_cast<std::size_t>(k)] = view_.to_map * Vec4d{p.x, p.y, p.z, 1.0};
         }
@@ -179,7 +184,8 @@ class BlockSetup {
     TriangleRecord* out_ = nullptr;
 };
 
-/// Room for each block: one record a triangle, but six where a triangle must be clipped (eight corners at most).
+/// Room for each block: one record a triangle, but six where a triangle must be clipped (eight corners at
+/// most).
 void lay_out_blocks(const Mesh& mesh, const Exec& exec, TriangleSetup& s) {
     const std::size_t triangles = mesh.triangles.size();
     s.blocks.assign((triangles + block_triangles - 1) / block_triangles, {});
@@ -189,7 +195,8 @@ void lay_out_blocks(const Mesh& mesh, const Exec& exec, TriangleSetup& s) {
         room[b] = end - begin;
         for (std::size_t t = begin; t < end; ++t) {
             const Triangle& tri = mesh.triangles[t];
-            const int clip = s.vertices[tri.v[0]].clip | s.vertices[tri.v[1]].clip | s.vertices[tri.v[2]].clip;
+            const int clip =
+                s.vertices[tri.v[0]].clip | s.vertices[tri.v[1]].clip | s.vertices[tri.v[2]].clip;
             if (clip != 0) room[b] += 5;
         }
     });
@@ -220,7 +227,8 @@ DepthPlane depth_plane(const Plane& world, const Mat4& from_map, float zmin, flo
     plane.c = map[3] * inv;
     // Slopes past 2^40 say nothing within one texel; and inf or NaN must not reach the sample loops.
     constexpr double steepest = 1099511627776.0;
-    if (!(std::fabs(plane.a) < steepest && std::fabs(plane.b) < steepest && std::fabs(plane.c) < steepest * 1e6)) {
+    if (!(std::fabs(plane.a) < steepest && std::fabs(plane.b) < steepest &&
+          std::fabs(plane.c) < steepest * 1e6)) {
         plane.a = plane.b = 0.0;
         plane.c = 0.5 * static_cast<double>(zmin) + 0.5 * static_cast<double>(zmax);
     }

@@ -2,11 +2,11 @@
 // The inner loop of every sample kernel: which samples of a tile a triangle covers, and at what depth.
 // Kernel files only. The meaning is raster/coverage.h, sample by sample; this is the same in rows of sixteen.
 //
-// What the field does (Pineda 1988; Abrash, "Rasterization on Larrabee", 2009) and we do too: test the box, drop
-// edges that the whole box lies inside of, step edge functions by addition. What is different: exactness. Edge
-// functions are taken at texel centres and divided by 256 once (their steps are multiples of 256, so the sign
-// survives), which makes them small enough for 32-bit lanes in nearly every case; 64-bit lanes take the rest.
-// Depth is not stepped at all: every sample evaluates the one formula.
+// What the field does (Pineda 1988; Abrash, "Rasterization on Larrabee", 2009) and we do too: test the box,
+// drop edges that the whole box lies inside of, step edge functions by addition. What is different:
+// exactness. Edge functions are taken at texel centres and divided by 256 once (their steps are multiples of
+// 256, so the sign survives), which makes them small enough for 32-bit lanes in nearly every case; 64-bit
+// lanes take the rest. Depth is not stepped at all: every sample evaluates the one formula.
 
 #include <cstdint>
 
@@ -16,8 +16,12 @@
 namespace obscura::OBSCURA_ISA {
 namespace {
 
-OBSCURA_INLINE std::int32_t least(std::int32_t a, std::int32_t b) { return a < b ? a : b; }
-OBSCURA_INLINE std::int32_t most(std::int32_t a, std::int32_t b) { return a > b ? a : b; }
+OBSCURA_INLINE std::int32_t least(std::int32_t a, std::int32_t b) {
+    return a < b ? a : b;
+}
+OBSCURA_INLINE std::int32_t most(std::int32_t a, std::int32_t b) {
+    return a > b ? a : b;
+}
 
 /// Columns [c0, c1] and rows [r0, r1] of the tile whose samples the triangle's box holds.
 struct SampleBox {
@@ -26,9 +30,13 @@ struct SampleBox {
 };
 
 OBSCURA_INLINE SampleBox sample_box(const TriangleRecord& t, const TileRect& tile) {
-    const std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]), x_high = most(most(t.x[0], t.x[1]), t.x[2]);
-    const std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]), y_high = most(most(t.y[0], t.y[1]), t.y[2]);
-    const auto first = [](std::int32_t v, std::int32_t sample) { return (v - sample + 255) >> subtexel_bits; };
+    const std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]),
+                       x_high = most(most(t.x[0], t.x[1]), t.x[2]);
+    const std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]),
+                       y_high = most(most(t.y[0], t.y[1]), t.y[2]);
+    const auto first = [](std::int32_t v, std::int32_t sample) {
+        return (v - sample + 255) >> subtexel_bits;
+    };
     const auto last = [](std::int32_t v, std::int32_t sample) { return (v - sample) >> subtexel_bits; };
     return {most(first(x_low, tile.sample_x) - tile.x0, 0),
             least(last(x_high, tile.sample_x) - tile.x0, tile.width - 1),
@@ -73,7 +81,8 @@ OBSCURA_INLINE F64 column_positions(const TileRect& tile, std::int32_t column) {
 /// Rows [r0, r1] of the sixteen columns from `column` on, all samples covered.
 template <class Consumer>
 OBSCURA_INLINE void walk_covered(const TriangleRecord& t, const TileRect& tile, std::int32_t column,
-                                 std::int32_t r0, std::int32_t r1, const DepthRow& depth, Consumer& consumer) {
+                                 std::int32_t r0, std::int32_t r1, const DepthRow& depth,
+                                 Consumer& consumer) {
     const double sample_y = static_cast<double>(tile.sample_y) * (1.0 / subtexel_one);
     for (std::int32_t r = r0; r <= r1; ++r) {
         const double Y = static_cast<double>(tile.y0 + r) + sample_y;
@@ -84,11 +93,12 @@ OBSCURA_INLINE void walk_covered(const TriangleRecord& t, const TileRect& tile, 
 /// The same where edges cross. V: I32 or I64 lanes; T: their type.
 template <class V, class T, class Consumer>
 OBSCURA_INLINE void walk_edges(const TriangleRecord& t, const TileRect& tile, const BoxEdge (&edge)[3],
-                               std::int32_t skipped_columns, std::int32_t column, std::int32_t r0, std::int32_t r1,
-                               const V& lane, const DepthRow& depth, Consumer& consumer) {
+                               std::int32_t skipped_columns, std::int32_t column, std::int32_t r0,
+                               std::int32_t r1, const V& lane, const DepthRow& depth, Consumer& consumer) {
     V e[3], step[3];
     for (int k = 0; k < 3; ++k) {
-        // Wrapping arithmetic on purpose: products may leave the type, the sums lie between low and high again.
+        // Wrapping arithmetic on purpose: products may leave the type, the sums lie between low and high
+        // again.
         const auto base = static_cast<T>(edge[k].e + edge[k].A * skipped_columns);
         e[k] = splat(base) + splat(static_cast<T>(edge[k].A)) * lane;
         step[k] = splat(static_cast<T>(edge[k].B));
@@ -100,13 +110,15 @@ OBSCURA_INLINE void walk_edges(const TriangleRecord& t, const TileRect& tile, co
             const double Y = static_cast<double>(tile.y0 + r) + sample_y;
             consumer.partial(r * tile.width + column, inside, depth.at(t.b * Y + t.c));
         }
-        for (int k = 0; k < 3; ++k) e[k] = e[k] + step[k];
+        for (int k = 0; k < 3; ++k)
+            e[k] = e[k] + step[k];
     }
 }
 
 /// 0 .. 15 in 64-bit lanes.
 OBSCURA_INLINE I64 lane_index_64() {
-    alignas(64) static constexpr std::int64_t index[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    alignas(64) static constexpr std::int64_t index[16] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                           8, 9, 10, 11, 12, 13, 14, 15};
     return load(index);
 }
 
@@ -151,9 +163,11 @@ OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile,
         if (covered) {
             walk_covered(t, tile, c, box.r0, box.r1, depth, consumer);
         } else if (!wide) {
-            walk_edges<I32, std::int32_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index(), depth, consumer);
+            walk_edges<I32, std::int32_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index(), depth,
+                                          consumer);
         } else {
-            walk_edges<I64, std::int64_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index_64(), depth, consumer);
+            walk_edges<I64, std::int64_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index_64(), depth,
+                                          consumer);
         }
     }
 }

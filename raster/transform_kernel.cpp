@@ -16,10 +16,16 @@ struct Rows {
 };
 
 /// Lanes i of the result: xyz[3 * (first + i) + axis].
-OBSCURA_INLINE F64 axis_of(const float* xyz, const I32& index) { return to_f64(gather(xyz, index)); }
+OBSCURA_INLINE F64 axis_of(const float* xyz, const I32& index) {
+    return to_f64(gather(xyz, index));
+}
 
-OBSCURA_INLINE Mask at_least(const F64& a, double bound) { return greater_equal(a, splat(bound)); }
-OBSCURA_INLINE Mask at_most(const F64& a, double bound) { return greater_equal(splat(bound), a); }
+OBSCURA_INLINE Mask at_least(const F64& a, double bound) {
+    return greater_equal(a, splat(bound));
+}
+OBSCURA_INLINE Mask at_most(const F64& a, double bound) {
+    return greater_equal(splat(bound), a);
+}
 
 void sixteen(const float* xyz, const I32& index, const VertexMap& map, I32 (&out)[4]) {
     const Rows row{axis_of(xyz, index), axis_of(xyz + 1, index), axis_of(xyz + 2, index)};
@@ -32,8 +38,8 @@ void sixteen(const float* xyz, const I32& index, const VertexMap& map, I32 (&out
         Z = Z * inv;
     }
     const Mask ahead = map.perspective ? at_least(w, map.near_w) : at_least(Z, 0.0);
-    const Mask on_map = (at_least(X, map.low_x) & at_most(X, map.high_x)) &
-                        (at_least(Y, map.low_y) & at_most(Y, map.high_y));
+    const Mask on_map =
+        (at_least(X, map.low_x) & at_most(X, map.high_x)) & (at_least(Y, map.low_y) & at_most(Y, map.high_y));
     const Mask usable = ahead & on_map;
 
     const I32 zero = splat(std::int32_t{0});
@@ -57,7 +63,8 @@ void transform_vertices(const float* xyz, std::size_t begin, std::size_t end, co
         sixteen(xyz + 3 * i, index, map, result);
 
         alignas(64) std::int32_t rows[4][lanes];
-        for (int k = 0; k < 4; ++k) store(rows[k], result[k]);
+        for (int k = 0; k < 4; ++k)
+            store(rows[k], result[k]);
         for (std::size_t k = 0; k < lanes && k < left; ++k) {
             MapVertex& v = out[i + k];
             v.x = rows[0][k];

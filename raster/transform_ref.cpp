@@ -13,7 +13,7 @@ void transform_vertices(const float* xyz, std::size_t begin, std::size_t end, co
     for (std::size_t i = begin; i < end; ++i) {
         const double x = static_cast<double>(xyz[3 * i]), y = static_cast<double>(xyz[3 * i + 1]),
                      z = static_cast<double>(xyz[3 * i + 2]);
-        const auto row = [&](const double (&m)[4]) { return (m[0] * x + m[1] * y) + (m[2] * z + m[3]); };
+        const auto row = [&](const double(&m)[4]) { return (m[0] * x + m[1] * y) + (m[2] * z + m[3]); };
         const double w = row(map.m[3]);
         const double inv = map.perspective ? 1.0 / w : 1.0;
         const double X = row(map.m[0]) * inv, Y = row(map.m[1]) * inv, Z = row(map.m[2]) * inv;

@@ -26,7 +26,9 @@ void set_row(Mat4& m, int r, Vec4d v) {
     m.m[r][3] = v.w;
 }
 
-Vec4d sum(Vec4d a, Vec4d b, double s) { return {a.x + b.x * s, a.y + b.y * s, a.z + b.z * s, a.w + b.w * s}; }
+Vec4d sum(Vec4d a, Vec4d b, double s) {
+    return {a.x + b.x * s, a.y + b.y * s, a.z + b.z * s, a.w + b.w * s};
+}
 
 /// Perspective map: texels per unit of tangent `fx`, image centre (cx, cy), depth row = zw * w + z1.
 View perspective_view(const Frame& frame, double texels_per_tangent, int width, int height) {
@@ -92,8 +94,8 @@ LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int res
     return view;
 }
 
-LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m, double far_m,
-                                 int resolution) {
+LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m,
+                                 double far_m, int resolution) {
     const Frame frame{look_basis(direction, {0, 1, 0}), position};
     const double half = 0.5 * angle_deg * radians;
     const double texels_per_tangent = 0.5 * resolution * num::cos(half) / num::sin(half);
@@ -144,7 +146,8 @@ View camera_view(const Camera& camera, int width, int height) {
     y.w += 0.5 * height;
     set_row(view.to_map, 0, x);
     set_row(view.to_map, 1, y);
-    // An orthographic camera sees everything ahead of its eye: depth in units of a range that holds any scene.
+    // An orthographic camera sees everything ahead of its eye: depth in units of a range that holds any
+    // scene.
     set_row(view.to_map, 2, frame.row(frame.basis.forward, 1.0 / orthographic_camera_range_m));
     return view;
 }

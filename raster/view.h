@@ -21,8 +21,8 @@ Bounds bounds_of(const Mesh& mesh);
 LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int resolution);
 
 /// Perspective view from `position` along `direction` with full angle `angle_deg` in (0, 180) both ways.
-LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m, double far_m,
-                                 int resolution);
+LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m,
+                                 double far_m, int resolution);
 
 /// The six faces of a cube around `position`, in the order +X -X +Y -Y +Z -Z.
 std::vector<LightView> cube_light_views(Vec3d position, double near_m, double far_m, int resolution);

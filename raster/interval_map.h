@@ -1,0 +1,43 @@
+#pragma once
+// Dual depths: the depth interval of every texel of a light view.
+
+#include <span>
+
+#include "core/scene.h"
+#include "core/types.h"
+#include "raster/depth_map.h"
+#include "raster/intervals.h"
+#include "raster/layer_tile.h"
+
+namespace obscura {
+
+struct IntervalParams {
+    Receivers receivers = Receivers::any;
+    bool only_casters = true;
+};
+
+/// Interval of every texel of `tile` (at most 32 x 32, width a multiple of 16), row by row into `out`, from
+/// the records in `list`. `scratch` holds one thread's layers.
+class IntervalTiler {
+  public:
+    IntervalTiler();
+    void run(const TriangleSetup& setup, std::span<const std::uint32_t> list, const TileRect& tile,
+             Receivers receivers, Isa isa, DepthInterval* out);
+
+  private:
+    void decide_rest(const TileRect& tile, Receivers receivers, DepthInterval* out);
+    Buffer<LayerKey> keys_;
+    Buffer<std::int32_t> filled_;
+    Buffer<SpilledLayer> spilled_;
+    LayerStack stack_;
+};
+
+/// out(x, y) = interval of texel (x, y)'s ray (see raster/intervals.h). `out` must have the view's size.
+void interval_map(const Mesh& mesh, const LightView& view, const IntervalParams& params, const Exec& exec,
+                  RasterScratch& scratch, ImageView<DepthInterval> out);
+
+/// The same as a new picture.
+Image<DepthInterval> interval_map(const Mesh& mesh, const LightView& view, const IntervalParams& params,
+                                  const Exec& exec);
+
+}  // namespace obscura

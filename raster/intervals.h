@@ -1,0 +1,46 @@
+#pragma once
+// From the crossings of one ray to its depth interval: the entry/exit counter.
+//
+// L. Scandolo, P. Bauszat, E. Eisemann, "Compressed Multiresolution Hierarchies for High-Quality Precomputed
+// Shadows", Eurographics 2016, section 3: a counter goes up at front faces and down at back faces; the
+// interval begins at the first crossing and ends where the counter is back at zero. What the paper leaves
+// open, and our policy, which never leaks light:
+//  - An open surface outside solids gives the zero-width interval [z, z]; inside a solid it does not matter.
+//    When only the scene's own surfaces receive shadows (Receivers::static_only), its interval may reach up
+//    to, not including, the next surface, or to 1 where none follows.
+//  - A back face met while the counter is zero (a flipped solid, a solid cut open by the near plane, the
+//  light
+//    inside a solid) gives [z, z].
+//  - A counter that never returns to zero gives [entry, entry].
+//  - Nothing at all gives the background [1, 1].
+
+#include <cstdint>
+#include <span>
+
+#include "core/scene.h"
+#include "core/types.h"
+#include "raster/record.h"
+
+namespace obscura {
+
+/// One crossing of a texel's ray with a triangle.
+struct LayerCrossing {
+    float depth = 0;
+    Crossing crossing = Crossing::entry;
+    std::uint32_t triangle = 0;
+    friend bool operator==(const LayerCrossing&, const LayerCrossing&) = default;
+};
+
+/// The order of crossings: depth, then kind, then triangle. Nothing depends on how they were found.
+bool comes_before(const LayerCrossing& p, const LayerCrossing& q);
+
+/// Interval of a ray from its crossings in order.
+DepthInterval interval_of(std::span<const LayerCrossing> ordered, Receivers receivers);
+
+/// Whether these crossings, the first of a longer list, already decide the interval.
+bool interval_decided(std::span<const LayerCrossing> ordered, Receivers receivers);
+
+/// The greatest float below `depth`, but not below `floor`.
+float just_before(float depth, float floor);
+
+}  // namespace obscura

@@ -1,0 +1,178 @@
+// All crossings of a tile, sixteen samples at a time. See layer_ref.cpp for what it computes.
+
+#include "core/simd.h"
+#include "raster/layer_tile.h"
+#include "raster/tile_walk.h"
+
+namespace obscura::OBSCURA_ISA {
+namespace {
+
+/// Order of (key, triangle) pairs.
+OBSCURA_INLINE Mask pair_less(const I32& key, const I32& id, const I32& other_key, const I32& other_id) {
+    // Triangle indices are unsigned; moving them to the signed range keeps their order.
+    const I32 flip = splat(INT32_MIN);
+    return less(key, other_key) | (equal(key, other_key) & less(id ^ flip, other_id ^ flip));
+}
+
+template <bool with_triangles>
+struct Insertion {
+    LayerStack& stack;
+    I32 crossing, id;
+
+    void spill(std::int32_t at, const I32& key, const I32& ids) {
+        alignas(64) std::int32_t keys[lanes], triangles[lanes];
+        store(keys, key);
+        store(triangles, ids);
+        for (int k = 0; k < lanes; ++k) {
+            if (keys[k] == no_layer) continue;
+            if (stack.spill_count < stack.spill_capacity) {
+                stack.spilled[stack.spill_count] = {at + k, keys[k],
+                                                    static_cast<std::uint32_t>(triangles[k])};
+            }
+            ++stack.spill_count;
+        }
+    }
+
+    /// Bubbles sixteen keys (no_layer where there is none) into the sorted layers at `at`.
+    OBSCURA_INLINE void insert(std::int32_t at, I32 key) {
+        std::int32_t& filled = stack.filled[at / lanes];
+        const I32 nothing = splat(no_layer);
+        I32 ids = id;
+        for (std::int32_t l = 0; l < filled; ++l) {
+            LayerKey* place = stack.keys + l * layer_tile_texels + at;
+            const I32 old = load(place);
+            if constexpr (with_triangles) {
+                std::int32_t* id_place = stack.triangles + l * layer_tile_texels + at;
+                const I32 old_ids = load(id_place);
+                const Mask before = pair_less(key, ids, old, old_ids);
+                store(place, select(before, key, old));
+                store(id_place, select(before, ids, old_ids));
+                key = select(before, old, key);
+                ids = select(before, old_ids, ids);
+            } else {
+                store(place, min(key, old));
+                key = max(key, old);
+            }
+            if (all(equal(key, nothing))) return;
+        }
+        if (filled < layers_in_place) {
+            store(stack.keys + filled * layer_tile_texels + at, key);
+            if constexpr (with_triangles) store(stack.triangles + filled * layer_tile_texels + at, ids);
+            ++filled;
+        } else {
+            spill(at, key, ids);
+        }
+    }
+
+    OBSCURA_INLINE I32 key_of(const F32& z) const {
+        return (shift_left<2>(bitcast_i32(z)) | crossing) ^ splat(INT32_MIN);
+    }
+    OBSCURA_INLINE void covered(std::int32_t at, const F32& z) { insert(at, key_of(z)); }
+    OBSCURA_INLINE void partial(std::int32_t at, const Mask& inside, const F32& z) {
+        insert(at, select(inside, key_of(z), splat(no_layer)));
+    }
+};
+
+template <bool with_triangles>
+void insert_all(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
+                const TileRect& tile, LayerStack& stack) {
+    for (std::int32_t i = 0; i < tile.width * tile.height / lanes; ++i)
+        stack.filled[i] = 0;
+    stack.spill_count = 0;
+    Insertion<with_triangles> insertion{stack, splat(std::int32_t{0}), splat(std::int32_t{0})};
+    for (std::size_t i = 0; i < count; ++i) {
+        const TriangleRecord& t = records[list[i]];
+        insertion.crossing = splat(static_cast<std::int32_t>(t.crossing));
+        insertion.id = splat(static_cast<std::int32_t>(t.triangle));
+        walk_triangle(t, tile, insertion);
+    }
+}
+
+/// The counter of intervals.h over sixteen rays. All lanes of a row walk the layers together.
+struct Counter {
+    I32 inside = splat(std::int32_t{0});
+    F32 entry = splat(1.0f);
+    DepthInterval* out = nullptr;
+    F32 result_entry = splat(1.0f), result_exit = splat(1.0f);
+    Mask active = equal(splat(std::int32_t{0}), splat(std::int32_t{0}));  ///< not yet decided
+    Mask waiting = ~active;  ///< an open crossing that waits for the next surface
+    bool static_receivers = false;
+
+    OBSCURA_INLINE void decide(const Mask& lanes_, const F32& first, const F32& last) {
+        result_entry = select(lanes_, first, result_entry);
+        result_exit = select(lanes_, last, result_exit);
+        active = active & ~lanes_;
+    }
+
+    OBSCURA_INLINE void step(const I32& key) {
+        const Mask present = active & ~equal(key, splat(no_layer));
+        const I32 code = key ^ splat(INT32_MIN);
+        const I32 kind = code & splat(3);
+        // Logical shift of the unsigned code; the result is below 2^30.
+        const I32 depth_bits = shift_right<2>(code) & splat(0x3fffffff);
+        const F32 depth = bitcast_f32(depth_bits);
+
+        // An open crossing that waits ends just before this one.
+        const Mask arrived = waiting & present;
+        const F32 before = bitcast_f32(max(depth_bits - splat(1), bitcast_i32(entry)));
+        decide(arrived, entry, before);
+        waiting = waiting & ~arrived;
+        const Mask now = present & ~arrived;
+
+        const Mask outside = equal(inside, splat(std::int32_t{0}));
+        const Mask is_entry = equal(kind, splat(static_cast<std::int32_t>(Crossing::entry)));
+        const Mask is_exit = equal(kind, splat(static_cast<std::int32_t>(Crossing::exit)));
+        const Mask is_open = ~(is_entry | is_exit);
+        entry = select(now & outside, depth, entry);
+
+        const Mask alone = now & outside & ~is_entry;
+        if (static_receivers) {
+            waiting = waiting | (alone & is_open);
+            decide(alone & is_exit, depth, depth);
+        } else {
+            decide(alone, depth, depth);
+        }
+        inside = inside + select(now & is_entry, splat(1), splat(std::int32_t{0})) -
+                 select(now & is_exit, splat(1), splat(std::int32_t{0}));
+        decide(now & is_exit & ~outside & equal(inside, splat(std::int32_t{0})), entry, depth);
+    }
+
+    /// After the last layer: waiting sheets reach to the end, counters that never closed are surfaces.
+    OBSCURA_INLINE void finish(const Mask& full) {
+        decide(active & full, splat(undecided_entry), splat(0.0f));
+        decide(active & waiting, entry, splat(1.0f));
+        decide(active, entry, entry);
+    }
+};
+
+}  // namespace
+
+void layer_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
+                const TileRect& tile, LayerStack& stack) noexcept {
+    insert_all<false>(records, list, count, tile, stack);
+}
+
+void layer_tile_with_triangles(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
+                               const TileRect& tile, LayerStack& stack) noexcept {
+    insert_all<true>(records, list, count, tile, stack);
+}
+
+void interval_tile(const LayerStack& stack, const TileRect& tile, bool static_receivers,
+                   DepthInterval* out) noexcept {
+    for (std::int32_t at = 0; at < tile.width * tile.height; at += lanes) {
+        const std::int32_t filled = stack.filled[at / lanes];
+        Counter counter;
+        counter.static_receivers = static_receivers;
+        for (std::int32_t l = 0; l < filled && any(counter.active); ++l) {
+            counter.step(load(stack.keys + l * layer_tile_texels + at));
+        }
+        Mask full = ~equal(splat(std::int32_t{0}), splat(std::int32_t{0}));
+        if (filled == layers_in_place) {
+            full = ~equal(load(stack.keys + (layers_in_place - 1) * layer_tile_texels + at), splat(no_layer));
+        }
+        counter.finish(full);
+        store_interleaved(&out[at].entry, counter.result_entry, counter.result_exit);
+    }
+}
+
+}  // namespace obscura::OBSCURA_ISA

@@ -1,0 +1,104 @@
+#include "raster/layers.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "raster/depth_map.h"
+#include "raster/layer_tile.h"
+
+namespace obscura {
+namespace {
+
+/// Crossings of one tile, texel by texel.
+struct TileLayers {
+    std::vector<std::size_t> first;  ///< per texel and one more
+    std::vector<LayerCrossing> crossings;
+};
+
+TileLayers collect(const LayerStack& stack, const TileRect& tile) {
+    std::vector<SpilledLayer> spilled(stack.spilled, stack.spilled + stack.spill_count);
+    std::stable_sort(spilled.begin(), spilled.end(),
+                     [](const SpilledLayer& p, const SpilledLayer& q) { return p.texel < q.texel; });
+    TileLayers tile_layers;
+    auto next_spilled = spilled.begin();
+    for (std::int32_t i = 0; i < tile.width * tile.height; ++i) {
+        tile_layers.first.push_back(tile_layers.crossings.size());
+        for (int l = 0; l < stack.filled[i / 16]; ++l) {
+            const LayerKey key = stack.keys[l * layer_tile_texels + i];
+            if (key == no_layer) break;
+            tile_layers.crossings.push_back(
+                {layer_depth(key), layer_crossing(key),
+                 static_cast<std::uint32_t>(stack.triangles[l * layer_tile_texels + i])});
+        }
+        const auto in_place = static_cast<std::ptrdiff_t>(tile_layers.crossings.size());
+        for (; next_spilled != spilled.end() && next_spilled->texel == i; ++next_spilled) {
+            tile_layers.crossings.push_back(
+                {layer_depth(next_spilled->key), layer_crossing(next_spilled->key), next_spilled->triangle});
+        }
+        // What spilled lies behind what stayed, but in no order of its own.
+        std::sort(tile_layers.crossings.begin() + in_place, tile_layers.crossings.end(), comes_before);
+    }
+    tile_layers.first.push_back(tile_layers.crossings.size());
+    return tile_layers;
+}
+
+TileLayers layers_of_tile(const RasterScratch& scratch, std::span<const std::uint32_t> list,
+                          const TileRect& tile, Isa isa) {
+    std::vector<LayerKey> keys(static_cast<std::size_t>(layers_in_place * layer_tile_texels));
+    std::vector<std::int32_t> triangles(keys.size()), filled(layer_tile_texels / 16);
+    std::vector<SpilledLayer> spilled;
+    LayerStack stack{keys.data(), triangles.data(), filled.data(), nullptr, 0, 0};
+    do {
+        spilled.resize(stack.spill_count);
+        stack.spilled = spilled.data();
+        stack.spill_capacity = spilled.size();
+        OBSCURA_DISPATCH(isa, layer_tile_with_triangles, scratch.setup.records.data(), list.data(),
+                         list.size(), tile, stack);
+    } while (stack.spill_count > stack.spill_capacity);
+    return collect(stack, tile);
+}
+
+}  // namespace
+
+Layers layers_of(const Mesh& mesh, const LightView& view, const Region& region, const Exec& exec) {
+    CHECK(region.x0 >= 0 && region.y0 >= 0 && region.width >= 0 && region.height >= 0 &&
+          region.x0 + region.width <= view.width && region.y0 + region.height <= view.height);
+    RasterScratch scratch;
+    setup_triangles(mesh, view, {}, exec, scratch.setup);
+    bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
+
+    std::vector<TileLayers> tiles(static_cast<std::size_t>(scratch.bins.columns) *
+                                  static_cast<std::size_t>(scratch.bins.rows));
+    parallel_for(tiles.size(), exec, [&](std::size_t i) {
+        const int column = static_cast<int>(i) % scratch.bins.columns,
+                  row = static_cast<int>(i) / scratch.bins.columns;
+        const TileRect tile{column * layer_tile_side, row * layer_tile_side, layer_tile_side,
+                            layer_tile_side};
+        if (tile.x0 >= region.x0 + region.width || tile.x0 + tile.width <= region.x0 ||
+            tile.y0 >= region.y0 + region.height || tile.y0 + tile.height <= region.y0) {
+            return;
+        }
+        tiles[i] = layers_of_tile(scratch, scratch.bins.list(column, row), tile, exec.isa);
+    });
+
+    // From tiles to rows of the region.
+    Layers layers;
+    layers.region = region;
+    layers.first.push_back(0);
+    for (int y = region.y0; y < region.y0 + region.height; ++y) {
+        for (int x = region.x0; x < region.x0 + region.width; ++x) {
+            const TileLayers& tile = tiles[static_cast<std::size_t>(y / layer_tile_side) *
+                                               static_cast<std::size_t>(scratch.bins.columns) +
+                                           static_cast<std::size_t>(x / layer_tile_side)];
+            const auto texel =
+                static_cast<std::size_t>((y % layer_tile_side) * layer_tile_side + x % layer_tile_side);
+            const LayerCrossing* all = tile.crossings.data();
+            layers.crossings.insert(layers.crossings.end(), all + tile.first[texel],
+                                    all + tile.first[texel + 1]);
+            layers.first.push_back(static_cast<std::uint32_t>(layers.crossings.size()));
+        }
+    }
+    return layers;
+}
+
+}  // namespace obscura
