@@ -3,16 +3,15 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/num.h"
 
 namespace obscura {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Linear value of an 8-bit sRGB one (IEC 61966-2-1).
 float linear_of_srgb8(int value) {
     const double s = value / 255.0;
-    return static_cast<float>(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
+    return static_cast<float>(s <= 0.04045 ? s / 12.92 : num::pow((s + 0.055) / 1.055, 2.4));
 }
 
 /// Cofactors of the linear part: they carry normals, whatever the move does to lengths.
@@ -51,20 +50,7 @@ Affine scaling(Vec3d f) {
 }
 
 Vec2d on_circle(double turns) {
-    const double quarters = 4.0 * (turns - std::floor(turns));
-    const double whole = std::floor(quarters);
-    const double angle = (quarters - whole) * (pi / 2);
-    const double c = angle == 0 ? 1.0 : std::cos(angle), s = angle == 0 ? 0.0 : std::sin(angle);
-    switch (static_cast<int>(whole) & 3) {
-        case 0:
-            return {c, s};
-        case 1:
-            return {-s, c};
-        case 2:
-            return {-c, -s};
-        default:
-            return {s, -c};
-    }
+    return {num::cos_deg(360.0 * turns), num::sin_deg(360.0 * turns)};
 }
 
 Affine rotation_x(double degrees) {

@@ -1,0 +1,101 @@
+#include "scenes/generators.h"
+
+#include <gtest/gtest.h>
+
+#include "core/hash.h"
+#include "mesh_checks.h"
+
+namespace obscura {
+namespace {
+
+using namespace mesh_checks;
+
+/// Closed, outward, clean, within its slots, and the same bits as when the golden hash was written down.
+void expect_good(const char* name, const GeneratedModel& model, const char* golden_hash) {
+    SCOPED_TRACE(name);
+    const Verdict v = inspect(model.mesh);
+    EXPECT_TRUE(v.arrays_agree);
+    EXPECT_GT(v.solids, 0u);
+    EXPECT_EQ(v.open_parts, 0u);
+    EXPECT_EQ(v.inside_out, 0u);
+    EXPECT_EQ(v.degenerate, 0u);
+    EXPECT_EQ(v.bad_normals, 0u);
+    for (const std::uint32_t m : model.mesh.material)
+        ASSERT_LT(m, model.materials.size());
+    EXPECT_EQ(hash_text(hash(model.mesh)), golden_hash);
+}
+
+TEST(Generators, AreClosedOutwardAndReproducible) {
+    expect_good("arcade", arcade({}), "931e7112014df54a");
+    expect_good("stairs", stairs({}), "e9bfd380833dd69b");
+    expect_good("fence", fence({}), "a24462985855f8c1");
+    expect_good("tree", tree({}), "3fdfa9d4df084bfd");
+    expect_good("lamp_post", lamp_post({}), "073a1d2c8ab9d904");
+    expect_good("planter", planter({}), "5c60722910b54586");
+    expect_good("bench", bench({}), "48b30b54e2602942");
+    expect_good("fountain", fountain({}), "0c579da44a89a553");
+    expect_good("pavement", pavement({}), "e1b34dc2c49f5bb5");
+    expect_good("roof_tiles", roof_tiles({}), "05d8ccd9e432a621");
+    expect_good("window_frame", window_frame({}), "ec1790d2e4d29615");
+    expect_good("pierced_wall", pierced_wall({}), "4637b7c999678ff5");
+    expect_good("house", house({}), "808da70d9f92aac7");
+}
+
+TEST(Generators, SeedsGrowDifferentTrees) {
+    TreeParams a, b;
+    b.seed = 2;
+    EXPECT_NE(hash(tree(a).mesh), hash(tree(b).mesh));
+}
+
+TEST(Generators, TreeHasItsSizeAndItsLeaves) {
+    const TreeParams p;
+    const GeneratedModel model = tree(p);
+    float high = 0, wide = 0;
+    for (const Vec3f q : model.mesh.positions) {
+        high = std::max(high, q.y);
+        wide = std::max(wide, std::max(std::fabs(q.x), std::fabs(q.z)));
+    }
+    EXPECT_NEAR(high, p.height_m, 0.15 * p.height_m);
+    EXPECT_NEAR(wide, p.crown_radius_m, 0.25 * p.crown_radius_m);
+    std::int64_t leaf_triangles = 0;
+    for (const std::uint32_t m : model.mesh.material)
+        leaf_triangles += m > 0;
+    EXPECT_NEAR(static_cast<double>(leaf_triangles), 4.0 * p.leaves, 0.1 * 4 * p.leaves);
+}
+
+TEST(Generators, LampLightIsInTheOpen) {
+    // Level rays from the light pass between the bars in most directions; only the bulb surrounds it.
+    const LampPostParams p;
+    const GeneratedModel model = lamp_post(p);
+    const double y = lamp_light_height(p);
+    int blocked = 0;
+    for (int i = 0; i < 360; ++i) {
+        const Vec2d c = on_circle((i + 0.37) / 360.0);
+        for (std::size_t k = 0; k < model.mesh.triangles.size(); ++k) {
+            if (model.mesh.material[k] == 1) continue;
+            const Triangle& t = model.mesh.triangles[k];
+            const Vec3d o{0, y, 0}, d{c.x, 0, c.y}, a = to_double(model.mesh.positions[t.v[0]]);
+            const Vec3d e = to_double(model.mesh.positions[t.v[1]]) - a,
+                        f = to_double(model.mesh.positions[t.v[2]]) - a;
+            const Vec3d h = cross(d, f), s = o - a, q = cross(s, e);
+            const double det = dot(e, h), u = dot(s, h) / det, v = dot(d, q) / det, at = dot(f, q) / det;
+            if (det != 0 && u >= 0 && v >= 0 && u + v <= 1 && at > 0) {
+                ++blocked;
+                break;
+            }
+        }
+    }
+    EXPECT_GT(blocked, 0);
+    EXPECT_LT(blocked, 60);
+}
+
+TEST(Generators, OpeningsGoRightThroughAWall) {
+    const PiercedWallParams p;
+    const GeneratedModel model = pierced_wall(p);
+    const double solid = p.width_m * p.height_m - p.openings * p.opening_width_m * p.opening_height_m;
+    EXPECT_NEAR(volume(model.mesh), solid * p.depth_m, 1e-5);
+    EXPECT_NEAR(opening_x(p, 0), -opening_x(p, 1), 1e-12);
+}
+
+}  // namespace
+}  // namespace obscura
