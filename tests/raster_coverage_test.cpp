@@ -24,12 +24,14 @@ struct Tile {
 
 Tile rasterize(const std::vector<TriangleRecord>& records, const TileRect& rect, Isa isa) {
     std::vector<std::uint32_t> list(records.size());
-    for (std::size_t i = 0; i < list.size(); ++i) list[i] = static_cast<std::uint32_t>(i);
+    for (std::size_t i = 0; i < list.size(); ++i)
+        list[i] = static_cast<std::uint32_t>(i);
     Tile tile;
     OBSCURA_DISPATCH(isa, visibility_tile, records.data(), list.data(), list.size(), rect, tile.depth.data(),
                      tile.triangle.data());
     Tile depth_only;
-    OBSCURA_DISPATCH(isa, depth_tile, records.data(), list.data(), list.size(), rect, depth_only.depth.data());
+    OBSCURA_DISPATCH(isa, depth_tile, records.data(), list.data(), list.size(), rect,
+                     depth_only.depth.data());
     EXPECT_EQ(depth_only.depth, tile.depth) << isa_name(isa);
     return tile;
 }
@@ -42,7 +44,8 @@ Tile brute_force(const std::vector<TriangleRecord>& records, const TileRect& rec
                 const std::int64_t sx = (std::int64_t{rect.x0} + x) * 256 + rect.sample_x;
                 const std::int64_t sy = (std::int64_t{rect.y0} + y) * 256 + rect.sample_y;
                 if (!oracle::covers(t.x, t.y, sx, sy)) continue;
-                const float z = oracle::depth(t, static_cast<double>(sx) / 256.0, static_cast<double>(sy) / 256.0);
+                const float z =
+                    oracle::depth(t, static_cast<double>(sx) / 256.0, static_cast<double>(sy) / 256.0);
                 const auto i = static_cast<std::size_t>(y * side + x);
                 if (z < tile.depth[i]) tile.depth[i] = z, tile.triangle[i] = t.triangle;
             }
@@ -52,14 +55,21 @@ Tile brute_force(const std::vector<TriangleRecord>& records, const TileRect& rec
 }
 
 /// A record through three fixed-point corners, turned the way setup turns them; empty area is left out.
-void add(std::vector<TriangleRecord>& records, std::int64_t x0, std::int64_t y0, std::int64_t x1, std::int64_t y1,
-         std::int64_t x2, std::int64_t y2, double a = 0, double b = 0, double c = 0.5) {
+void add(std::vector<TriangleRecord>& records, std::int64_t x0, std::int64_t y0, std::int64_t x1,
+         std::int64_t y1, std::int64_t x2, std::int64_t y2, double a = 0, double b = 0, double c = 0.5) {
     const std::int64_t area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
     if (area == 0) return;
     if (area < 0) std::swap(x1, x2), std::swap(y1, y2);
     const auto i32 = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
-    records.push_back({{i32(x0), i32(x1), i32(x2)}, {i32(y0), i32(y1), i32(y2)}, a, b, c, 0.0f, 1.0f,
-                       static_cast<std::uint32_t>(records.size()), Crossing::entry});
+    records.push_back({{i32(x0), i32(x1), i32(x2)},
+                       {i32(y0), i32(y1), i32(y2)},
+                       a,
+                       b,
+                       c,
+                       0.0f,
+                       1.0f,
+                       static_cast<std::uint32_t>(records.size()),
+                       Crossing::entry});
 }
 
 void expect_all_equal(const std::vector<TriangleRecord>& records, const TileRect& rect) {
@@ -76,14 +86,17 @@ TEST(Coverage, RandomTrianglesOfEverySizeMatchExactIntegers) {
     for (int round = 0; round < 60; ++round) {
         // Sizes from below a texel to many maps; corners often exactly on texel centres or edges.
         const int bits = 5 + round % 20;
-        std::uniform_int_distribution<std::int64_t> offset(-(std::int64_t{1} << bits), std::int64_t{1} << bits);
+        std::uniform_int_distribution<std::int64_t> offset(-(std::int64_t{1} << bits),
+                                                           std::int64_t{1} << bits);
         std::uniform_int_distribution<int> grid_choice(0, 3);
         std::uniform_real_distribution<double> slope(-1e-3, 1e-3);
         const TileRect rect{(round % 5) * 1000, (round % 3) * 70000, side, side, 128, 128};
         std::vector<TriangleRecord> records;
         for (int i = 0; i < 40; ++i) {
             const std::int64_t grid = std::int64_t{1} << (grid_choice(rng) * 3);  // 1, 8, 64, 512
-            const auto place = [&](std::int64_t centre) { return (centre + offset(rng)) / grid * grid + grid / 2; };
+            const auto place = [&](std::int64_t centre) {
+                return (centre + offset(rng)) / grid * grid + grid / 2;
+            };
             const std::int64_t cx = (rect.x0 + side / 2) * 256, cy = (rect.y0 + side / 2) * 256;
             const double a = slope(rng), b = slope(rng);
             add(records, place(cx), place(cy), place(cx), place(cy), place(cx), place(cy), a, b,
@@ -96,10 +109,12 @@ TEST(Coverage, RandomTrianglesOfEverySizeMatchExactIntegers) {
 TEST(Coverage, OtherSamplePositionsMatchToo) {
     std::mt19937 rng(11);
     std::uniform_int_distribution<std::int64_t> place(-20 * 256, 84 * 256);
-    for (const auto& [sx, sy] : {std::pair{0, 0}, std::pair{255, 255}, std::pair{96, 32}, std::pair{8, 200}}) {
+    for (const auto& [sx, sy] :
+         {std::pair{0, 0}, std::pair{255, 255}, std::pair{96, 32}, std::pair{8, 200}}) {
         std::vector<TriangleRecord> records;
         for (int i = 0; i < 50; ++i) {
-            add(records, place(rng), place(rng), place(rng), place(rng), place(rng), place(rng), 1e-4, -2e-4, 0.5);
+            add(records, place(rng), place(rng), place(rng), place(rng), place(rng), place(rng), 1e-4, -2e-4,
+                0.5);
         }
         expect_all_equal(records, {0, 0, side, side, sx, sy});
     }
@@ -127,7 +142,8 @@ TEST(Coverage, SharedEdgesBelongToExactlyOneTriangle) {
     std::mt19937 rng(5);
     for (int round = 0; round < 40; ++round) {
         const std::int64_t cx = 32 * 256 + 128, cy = 32 * 256 + 128;
-        const std::int64_t ring[8][2] = {{10, 10}, {32, 4}, {55, 9}, {60, 32}, {54, 56}, {32, 60}, {9, 54}, {4, 32}};
+        const std::int64_t ring[8][2] = {{10, 10}, {32, 4},  {55, 9}, {60, 32},
+                                         {54, 56}, {32, 60}, {9, 54}, {4, 32}};
         std::uniform_int_distribution<std::int64_t> jitter(-300, 300);
         std::int64_t px[8], py[8];
         for (int i = 0; i < 8; ++i) {
@@ -136,14 +152,18 @@ TEST(Coverage, SharedEdgesBelongToExactlyOneTriangle) {
             py[i] = ring[i][1] * 256 + 128 + (exact ? 0 : jitter(rng));
         }
         std::vector<TriangleRecord> fan;
-        for (int i = 0; i < 8; ++i) add(fan, cx, cy, px[i], py[i], px[(i + 1) % 8], py[(i + 1) % 8]);
+        for (int i = 0; i < 8; ++i)
+            add(fan, cx, cy, px[i], py[i], px[(i + 1) % 8], py[(i + 1) % 8]);
         ASSERT_EQ(fan.size(), 8u);
         for (int y = 0; y < side; ++y) {
             for (int x = 0; x < side; ++x) {
                 int count = 0;
-                for (const TriangleRecord& t : fan) count += covers(t, x, y);
+                for (const TriangleRecord& t : fan)
+                    count += covers(t, x, y);
                 ASSERT_LE(count, 1) << x << "," << y;
-                if (std::abs(x - 32) + std::abs(y - 32) < 20) { ASSERT_EQ(count, 1) << x << "," << y; }
+                if (std::abs(x - 32) + std::abs(y - 32) < 20) {
+                    ASSERT_EQ(count, 1) << x << "," << y;
+                }
             }
         }
         expect_all_equal(fan, {0, 0, side, side, 128, 128});

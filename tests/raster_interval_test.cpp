@@ -26,14 +26,18 @@ std::vector<TriangleRecord> records_of(const Mesh& mesh, const LightView& view) 
     setup_triangles(mesh, view, {}, Exec{Isa::ref, 1}, setup);
     std::vector<TriangleRecord> records;
     for (const RecordBlock& b : setup.blocks) {
-        for (std::size_t i = b.begin; i < b.begin + b.count; ++i) records.push_back(setup.records[i]);
+        for (std::size_t i = b.begin; i < b.begin + b.count; ++i)
+            records.push_back(setup.records[i]);
     }
     return records;
 }
 
-std::uint64_t hash_of(const Image<DepthInterval>& map) { return Hasher().values(map.pixels).state; }
+std::uint64_t hash_of(const Image<DepthInterval>& map) {
+    return Hasher().values(map.pixels).state;
+}
 
-Image<DepthInterval> intervals(const Mesh& mesh, const LightView& view, Receivers receivers, Isa isa, int threads) {
+Image<DepthInterval> intervals(const Mesh& mesh, const LightView& view, Receivers receivers, Isa isa,
+                               int threads) {
     return interval_map(mesh, view, {receivers, true}, Exec{isa, threads});
 }
 
@@ -41,16 +45,19 @@ class RandomSolids : public testing::TestWithParam<std::tuple<int, bool>> {};
 
 TEST_P(RandomSolids, IntervalsEqualTheOracleBitForBit) {
     const auto [seed, perspective] = GetParam();
-    const Mesh mesh = solids::random_solids(static_cast<std::uint32_t>(seed), 40, seed % 2 == 0, seed % 3 == 0);
+    const Mesh mesh =
+        solids::random_solids(static_cast<std::uint32_t>(seed), 40, seed % 2 == 0, seed % 3 == 0);
     // 200 is no multiple of the tile: borders are cut.
-    const LightView view = perspective ? perspective_light_view({7, 9, 5}, normalize(Vec3d{-7, -9, -5}), 70, 0.5, 40, 200)
-                                       : view_of(mesh, {0.3, -1, 0.2}, 200);
+    const LightView view =
+        perspective ? perspective_light_view({7, 9, 5}, normalize(Vec3d{-7, -9, -5}), 70, 0.5, 40, 200)
+                    : view_of(mesh, {0.3, -1, 0.2}, 200);
     const std::vector<TriangleRecord> records = records_of(mesh, view);
     for (const Receivers receivers : {Receivers::any, Receivers::static_only}) {
         Image<DepthInterval> expected(view.width, view.height);
         for (int y = 0; y < view.height; ++y) {
             for (int x = 0; x < view.width; ++x) {
-                expected(x, y) = oracle::interval(oracle::hits_at(records, x, y), receivers == Receivers::static_only);
+                expected(x, y) =
+                    oracle::interval(oracle::hits_at(records, x, y), receivers == Receivers::static_only);
             }
         }
         for (const Isa isa : supported_isas()) {
@@ -94,7 +101,8 @@ TEST(Layers, ClosedSolidsBalanceAtEverySample) {
         for (int y = 0; y < 192; ++y) {
             for (int x = 0; x < 192; ++x) {
                 int sum = 0;
-                for (const LayerCrossing& c : layers.at(x, y)) sum += c.crossing == Crossing::entry ? 1 : -1;
+                for (const LayerCrossing& c : layers.at(x, y))
+                    sum += c.crossing == Crossing::entry ? 1 : -1;
                 ASSERT_EQ(sum, 0) << x << "," << y << " seed " << seed;
             }
         }
@@ -128,7 +136,8 @@ TEST(Layers, VerticesOnTexelCentresStillBalance) {
 
 TEST(Layers, ThreeHundredLayersAreAllThere) {
     Mesh mesh;
-    for (int i = 0; i < 150; ++i) solids::add(mesh, box({-1.0, 2.0 * i, -1.0}, {1.0, 2.0 * i + 1, 1.0}));
+    for (int i = 0; i < 150; ++i)
+        solids::add(mesh, box({-1.0, 2.0 * i, -1.0}, {1.0, 2.0 * i + 1, 1.0}));
     const LightView view = view_of(mesh, {0, -1, 0}, 300);
     for (const Isa isa : supported_isas()) {
         const Layers layers = layers_of(mesh, view, {140, 140, 20, 20}, Exec{isa, 2});
@@ -145,9 +154,11 @@ TEST(Layers, ThreeHundredLayersAreAllThere) {
 }
 
 TEST(Intervals, NestedSolidsNeedTheSpilledLayers) {
-    // Sixty boxes inside one another: the interval is that of the outermost, found behind 118 other crossings.
+    // Sixty boxes inside one another: the interval is that of the outermost, found behind 118 other
+    // crossings.
     Mesh mesh;
-    for (int i = 0; i < 60; ++i) solids::add(mesh, box(Vec3d{10.0 - 0.1 * i, 10.0 - 0.1 * i, 10.0 - 0.1 * i}));
+    for (int i = 0; i < 60; ++i)
+        solids::add(mesh, box(Vec3d{10.0 - 0.1 * i, 10.0 - 0.1 * i, 10.0 - 0.1 * i}));
     const LightView view = view_of(mesh, {0, -1, 0}, 64);
     for (const Isa isa : supported_isas()) {
         const DepthInterval middle = intervals(mesh, view, Receivers::any, isa, 1)(32, 32);
@@ -190,7 +201,8 @@ TEST(Intervals, ASheetInsideASolidDoesNotMatter) {
     solids::add(both, box({-2, 0, -2}, {2, 2, 2}));
     solids::add(both, solids::shifted(plane(2, 2), {0, 1, 0}));
     const LightView view = view_of(solid, {0, -1, 0}, 64);
-    EXPECT_EQ(intervals(both, view, Receivers::any, best_isa(), 1), intervals(solid, view, Receivers::any, best_isa(), 1));
+    EXPECT_EQ(intervals(both, view, Receivers::any, best_isa(), 1),
+              intervals(solid, view, Receivers::any, best_isa(), 1));
 }
 
 TEST(Intervals, FlippedAndCutSolidsLeakNoLight) {
@@ -238,15 +250,27 @@ TEST(Intervals, DoNotDependOnOrderThreadsOrIsa) {
 }
 
 TEST(Intervals, DoNotDependOnTheTile) {
-    // The same texels through another tiling: the view moved by a whole number of texels.
     const Mesh mesh = solids::random_solids(34, 60, true, false);
     const LightView view = view_of(mesh, {0.5, -1, 0.1}, 256);
     const Image<DepthInterval> whole = intervals(mesh, view, Receivers::any, best_isa(), 1);
-    const Layers layers = layers_of(mesh, view, {0, 0, 256, 256}, Exec{});
-    for (int y = 0; y < 256; ++y) {
-        for (int x = 0; x < 256; ++x) {
-            ASSERT_EQ(interval_of(layers.at(x, y), Receivers::any).entry,
-                      layers.at(x, y).empty() ? 0 : whole(x, y).entry);
+    TriangleSetup setup;
+    setup_triangles(mesh, view, {}, Exec{}, setup);
+    std::vector<std::uint32_t> list;
+    for (const RecordBlock& b : setup.blocks) {
+        for (std::size_t i = b.begin; i < b.begin + b.count; ++i)
+            list.push_back(static_cast<std::uint32_t>(i));
+    }
+    // Tiles of other sizes at odd places.
+    std::mt19937 rng(1);
+    for (int round = 0; round < 60; ++round) {
+        const int width = round % 2 == 0 ? 16 : 32, height = 1 + static_cast<int>(rng() % 32);
+        const TileRect tile{static_cast<int>(rng() % 224), static_cast<int>(rng() % 224), width, height};
+        DepthInterval out[layer_tile_texels];
+        IntervalTiler().run(setup, list, tile, Receivers::any,
+                            supported_isas()[rng() % supported_isas().size()], out);
+        for (int y = 0; y < height; ++y) {
+            for (int x = 0; x < width; ++x)
+                ASSERT_EQ(out[y * width + x], whole(tile.x0 + x, tile.y0 + y));
         }
     }
 }
@@ -277,7 +301,8 @@ TEST(Intervals, OfATurnedBoxFollowItsPlanes) {
     int inside = 0;
     for (int y = 0; y < 256; ++y) {
         for (int x = 0; x < 256; ++x) {
-            const Vec4d p4 = to_world * Vec4d{x + 0.5, y + 0.5, 0, 1}, q4 = to_world * Vec4d{x + 0.5, y + 0.5, 1, 1};
+            const Vec4d p4 = to_world * Vec4d{x + 0.5, y + 0.5, 0, 1},
+                        q4 = to_world * Vec4d{x + 0.5, y + 0.5, 1, 1};
             const Vec3d p{p4.x, p4.y, p4.z}, d = Vec3d{q4.x, q4.y, q4.z} - p;
             double enter = 0, leave = 1;
             for (int axis = 0; axis < 3; ++axis) {

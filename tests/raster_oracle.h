@@ -1,6 +1,6 @@
 #pragma once
-// An independent, slow and obvious rasterizer for tests: exact integers of 128 bits, one sample at a time, no tiles.
-// It shares no code with raster/ but the record of a triangle and the formula of depth.
+// An independent, slow and obvious rasterizer for tests: exact integers of 128 bits, one sample at a time, no
+// tiles. It shares no code with raster/ but the record of a triangle and the formula of depth.
 
 #include <algorithm>
 #include <cstdint>
@@ -14,11 +14,14 @@ namespace obscura::oracle {
 using Wide = __int128;
 
 /// -1, 0, 1.
-inline int sign(Wide v) { return v > 0 ? 1 : (v < 0 ? -1 : 0); }
+inline int sign(Wide v) {
+    return v > 0 ? 1 : (v < 0 ? -1 : 0);
+}
 
 /// On which side of the line p -> q lies the sample moved by (e, e^2), e > 0 vanishing: never 0 unless p = q.
 /// The first of the powers 1, e, e^2 with a non-zero coefficient decides.
-inline int side(std::int64_t px, std::int64_t py, std::int64_t qx, std::int64_t qy, std::int64_t sx, std::int64_t sy) {
+inline int side(std::int64_t px, std::int64_t py, std::int64_t qx, std::int64_t qy, std::int64_t sx,
+                std::int64_t sy) {
     const Wide dx = qx - px, dy = qy - py;
     if (const int s = sign(dx * (sy - py) - dy * (sx - px)); s != 0) return s;
     if (const int s = sign(-dy); s != 0) return s;

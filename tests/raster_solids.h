@@ -19,7 +19,8 @@ inline Affine rotation(Vec3d axis, double t) {
 }
 
 inline Mesh moved(Mesh mesh, const Affine& map) {
-    for (Vec3f& p : mesh.positions) p = to_float(transform_point(map, to_double(p)));
+    for (Vec3f& p : mesh.positions)
+        p = to_float(transform_point(map, to_double(p)));
     return mesh;
 }
 
@@ -33,7 +34,8 @@ inline Mesh shifted(Mesh mesh, Vec3d by) {
 
 /// Turns every triangle over.
 inline Mesh flipped(Mesh mesh) {
-    for (Triangle& t : mesh.triangles) std::swap(t.v[1], t.v[2]);
+    for (Triangle& t : mesh.triangles)
+        std::swap(t.v[1], t.v[2]);
     return mesh;
 }
 
