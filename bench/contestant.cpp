@@ -1,0 +1,33 @@
+#include "bench/contestant.h"
+
+namespace obscura {
+
+const char* workload_name(Workload workload) {
+    switch (workload) {
+        case Workload::depth:
+            return "depth";
+        case Workload::dual_depth:
+            return "dual depth";
+        case Workload::frame:
+            return "frame";
+    }
+    return "";
+}
+
+std::size_t result_size(Workload workload, const BenchScene& scene) {
+    const auto pixels = [](int w, int h) {
+        return static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
+    };
+    const std::size_t texels = pixels(scene.light.width, scene.light.height);
+    switch (workload) {
+        case Workload::depth:
+            return texels;
+        case Workload::dual_depth:
+            return 2 * texels;
+        case Workload::frame:
+            return 3 * pixels(scene.scene.render.width, scene.scene.render.height);
+    }
+    return 0;
+}
+
+}  // namespace obscura
