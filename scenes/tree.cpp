@@ -59,7 +59,7 @@ std::vector<Node> trunk(const TreeParams& p, double step, Random& random) {
 std::vector<Node> grow(const TreeParams& p, Random& random) {
     const double size = num::cbrt(p.crown_radius_m * p.crown_radius_m * (p.height_m - p.trunk_m));
     const double step = 0.055 * size, reached = 2.0 * step;
-    std::vector<Vec3d> points = attractors(p, random, 1700);
+    std::vector<Vec3d> points = attractors(p, random, 2400);
     std::vector<Node> nodes = trunk(p, step, random);
     std::vector<int> nearest(points.size(), 0);
     std::vector<double> distance(points.size(), 1e30);
@@ -161,7 +161,7 @@ void add_leaves(Mesh& mesh, const TreeParams& p, const std::vector<Node>& nodes,
         const Node& node = nodes[twigs[static_cast<std::size_t>(n) % twigs.size()]];
         const Vec3d twig = normalize(node.at - nodes[static_cast<std::size_t>(node.parent)].at);
         const Vec3d out = random_direction(random);
-        const Vec3d at = node.at - twig * random.range(0, 0.22) + out * random.range(0.0, 1.5 * p.leaf_m);
+        const Vec3d at = node.at - twig * random.range(0, 0.22) + out * random.range(0.0, 2.6 * p.leaf_m);
         const Vec3d along = normalize(twig * 0.5 + out + Vec3d{0, -0.25, 0});
         const Vec3d up = normalize(Vec3d{0, 1, 0} + random_direction(random) * 0.65);
         if (std::fabs(dot(along, up)) > 0.98) continue;
@@ -183,7 +183,7 @@ GeneratedModel tree(const TreeParams& p) {
     Random growth = seed.fork(1), foliage = seed.fork(2);
     const double tip_radius_m = 0.006;
     std::vector<Node> nodes = grow(p, growth);
-    thicken(nodes, tip_radius_m, 0.024 * p.height_m);
+    thicken(nodes, tip_radius_m, 0.022 * p.height_m);
     add_branches(model.mesh, nodes);
     add_leaves(model.mesh, p, nodes, tip_radius_m, foliage);
     return model;

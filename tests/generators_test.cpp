@@ -4,6 +4,7 @@
 
 #include "core/hash.h"
 #include "mesh_checks.h"
+#include "scenes/city.h"
 
 namespace obscura {
 namespace {
@@ -29,7 +30,7 @@ TEST(Generators, AreClosedOutwardAndReproducible) {
     expect_good("arcade", arcade({}), "931e7112014df54a");
     expect_good("stairs", stairs({}), "e9bfd380833dd69b");
     expect_good("fence", fence({}), "a24462985855f8c1");
-    expect_good("tree", tree({}), "3fdfa9d4df084bfd");
+    expect_good("tree", tree({}), "f6f440d3ac2c2649");
     expect_good("lamp_post", lamp_post({}), "073a1d2c8ab9d904");
     expect_good("planter", planter({}), "5c60722910b54586");
     expect_good("bench", bench({}), "48b30b54e2602942");
@@ -38,7 +39,48 @@ TEST(Generators, AreClosedOutwardAndReproducible) {
     expect_good("roof_tiles", roof_tiles({}), "05d8ccd9e432a621");
     expect_good("window_frame", window_frame({}), "ec1790d2e4d29615");
     expect_good("pierced_wall", pierced_wall({}), "4637b7c999678ff5");
+    expect_good("city", city({}), "faf86b00a6946c34");
     expect_good("house", house({}), "808da70d9f92aac7");
+}
+
+TEST(City, HasAboutTheTrianglesThatWereAskedFor) {
+    const auto ask = [](std::int64_t triangles, double extent_m, int seed) {
+        CityParams p;
+        p.triangles = triangles, p.extent_m = extent_m, p.seed = seed;
+        const auto got = static_cast<double>(city(p).mesh.triangles.size());
+        EXPECT_NEAR(got / static_cast<double>(triangles), 1, 0.05)
+            << triangles << ' ' << extent_m << ' ' << seed;
+    };
+    for (const std::int64_t triangles : {1'000, 3'000, 10'000, 100'000, 1'000'000})
+        ask(triangles, 0, 1);
+    for (const int seed : {2, 3, 4, 5})
+        ask(2'000, 0, seed);
+    for (const double extent_m : {60.0, 400.0, 1500.0})
+        ask(50'000, extent_m, 1);
+}
+
+TEST(City, IsClosedInEveryLevelOfDetail) {
+    for (const std::int64_t triangles : {1'000, 10'000, 40'000}) {
+        CityParams p;
+        p.triangles = triangles, p.seed = 9;
+        const Verdict v = inspect(city(p).mesh);
+        EXPECT_EQ(v.open_parts + v.inside_out + v.degenerate + v.bad_normals, 0u) << triangles;
+    }
+    // Few houses, so that all of them reach the finest level.
+    CityParams fine;
+    fine.triangles = 200'000, fine.extent_m = 80;
+    const Verdict v = inspect(city(fine).mesh);
+    EXPECT_EQ(v.open_parts + v.inside_out + v.degenerate + v.bad_normals, 0u);
+}
+
+TEST(City, StaysWithinItsExtent) {
+    CityParams p;
+    p.triangles = 20'000, p.extent_m = 250;
+    for (const Vec3f q : city(p).mesh.positions) {
+        ASSERT_LE(std::fabs(q.x), 125.0f);
+        ASSERT_LE(std::fabs(q.z), 125.0f);
+        ASSERT_GE(q.y, -1.0f);
+    }
 }
 
 TEST(Generators, SeedsGrowDifferentTrees) {
