@@ -115,11 +115,13 @@ Target check_target(const fs::path& path, Existing existing) {
     return kind;
 }
 
-/// The file that a chain of symbolic links leads to, so that links survive.
-fs::path behind_links(const fs::path& path) {
+/// The file that a chain of symbolic links leads to, existing or not, so that links survive.
+fs::path behind_links(fs::path path) {
     std::error_code error;
-    const fs::path real = fs::is_symlink(path, error) ? fs::weakly_canonical(path, error) : path;
-    return error ? path : real;
+    for (int i = 0; i < 40 && fs::is_symlink(path, error); ++i) {
+        path = path.parent_path() / fs::read_symlink(path, error);  // an absolute target replaces the folder
+    }
+    return path;
 }
 
 fs::path directory_of(const fs::path& path) {
