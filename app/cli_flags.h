@@ -1,0 +1,64 @@
+#pragma once
+// The flags of one command: CLI11 takes the command line apart, this decides how values are read and how
+// the help looks. Numbers are decimal (010 is ten), a flag may be given once unless it is a list.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+class Flags {
+  public:
+    /// `usage` is what stands behind the program's name: "render [options] SCENE".
+    Flags(std::string usage, std::string summary);
+
+    /// Heading of the flags that follow.
+    void group(std::string heading);
+
+    // Each takes the names ("-t,--threads"), the place of the value, which keeps its value when the flag is
+    // absent, and one sentence that states the unit. `shown` is the default in words.
+    void on_off(const std::string& names, bool& target, const std::string& doc);
+    void counted(const std::string& names, int& target, const std::string& doc);
+    void text(const std::string& names, const std::string& value, std::string& target, const std::string& doc,
+              const std::string& shown = "");
+    void list(const std::string& names, const std::string& value, std::vector<std::string>& target,
+              const std::string& doc);
+    void whole(const std::string& names, const std::string& value, std::int64_t& target, std::int64_t low,
+               std::int64_t high, const std::string& doc, const std::string& shown);
+    void number(const std::string& names, const std::string& value, double& target, double low, double high,
+                const std::string& doc, const std::string& shown);
+    void positional(const std::string& name, std::string& target, const std::string& doc,
+                    bool required = true);
+    /// Text below the flags.
+    void footer(std::string text);
+
+    /// Reads the arguments that follow the command's name. False: help was asked for and printed to standard
+    /// output. Throws UsageError.
+    bool parse(const std::vector<std::string>& arguments);
+
+    std::string help() const;
+
+  private:
+    struct Row {
+        std::string group, left, doc;
+    };
+    CLI::Option* finish(CLI::Option* option, const std::string& names, const std::string& value,
+                        const std::string& doc, const std::string& shown);
+    [[noreturn]] void reject(const std::string& message) const;
+    void reject_leftovers() const;
+
+    std::string usage, summary, heading, closing;
+    CLI::App app;
+    std::vector<Row> rows;
+    std::vector<std::string> long_names;
+    std::vector<std::function<void()>> readers;  ///< run after CLI11 is done, in the order of declaration
+    bool help_wanted = false;
+};
+
+/// Runs of words broken at `width` columns; lines after the first begin with `indent` spaces.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
+
+}  // namespace obscura

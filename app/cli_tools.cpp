@@ -1,0 +1,44 @@
+// Flags of the commands that look at files.
+
+#include <string>
+
+#include "app/cli_commands.h"
+#include "app/cli_flags.h"
+#include "app/info_command.h"
+#include "app/version_command.h"
+
+namespace obscura {
+namespace {
+
+std::vector<std::filesystem::path> as_paths(const std::vector<std::string>& texts) {
+    return {texts.begin(), texts.end()};
+}
+
+}  // namespace
+
+int run_info(const Arguments& arguments) {
+    Flags flags("info [options] FILE",
+                "Prints what a mesh file (Wavefront OBJ) holds: triangles, components closed or open, open "
+                "edges, bounding box in the file's own units, degenerate triangles.");
+    std::string file;
+    std::vector<std::string> allowed;
+    InfoOptions options;
+    flags.positional("FILE", file, "The mesh file.");
+    flags.group("Input");
+    flags.list("--allow-path", "DIR", allowed,
+               "A folder besides the file's own that material files may lie in; may be given again.");
+    flags.on_off("--allow-missing", options.allow_missing,
+                 "Go on without material files that are not there.");
+    if (!flags.parse(arguments)) return 0;
+    options.file = file;
+    options.allowed_paths = as_paths(allowed);
+    return info_command(options);
+}
+
+int run_version(const Arguments& arguments) {
+    Flags flags("version", "Prints version, compiler, instruction sets, threads and libraries.");
+    if (!flags.parse(arguments)) return 0;
+    return version_command();
+}
+
+}  // namespace obscura

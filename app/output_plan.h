@@ -1,0 +1,41 @@
+#pragma once
+// Which files a render writes.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/scene.h"
+
+namespace obscura {
+
+enum class FileKind { png, pfm };
+
+/// One picture per frame. Every run of # in `pattern` stands for the frame number, padded with zeros to as
+/// many digits.
+struct PlannedOutput {
+    Aov aov = Aov::beauty;
+    std::string pattern;
+    FileKind kind = FileKind::png;
+};
+
+struct OutputRequest {
+    std::string output;     ///< -o; empty: the scene's list, else SCENE.png in the current folder
+    std::vector<Aov> aovs;  ///< --aov: further pictures NAME.AOV.png or .pfm beside the first
+    FileKind aov_kind = FileKind::pfm;
+    std::string scene_stem;  ///< file name of the scene without its suffix
+    bool several_frames = false;
+};
+
+/// Throws UsageError for another suffix than .png or .pfm, for several frames without #, and when two
+/// pictures would go to one file.
+std::vector<PlannedOutput> plan_outputs(const OutputRequest& request,
+                                        const std::vector<Output>& scene_outputs);
+
+/// The file of one frame.
+std::filesystem::path output_path(const PlannedOutput& output, int frame);
+
+/// .png or .pfm, in any case.
+FileKind file_kind(const std::string& file);
+
+}  // namespace obscura

@@ -1,0 +1,93 @@
+#include "app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+namespace obscura {
+namespace {
+
+constexpr std::int64_t live_interval_ms = 100;
+constexpr double worth_guessing_s = 1.0;  // an estimate out of less would jump about
+
+}  // namespace
+
+bool is_terminal(std::FILE* stream) {
+    return ::isatty(::fileno(stream)) == 1;
+}
+
+bool wants_colour(std::FILE* stream) {
+    const char* no_colour = std::getenv("NO_COLOR");
+    const char* term = std::getenv("TERM");
+    return is_terminal(stream) && (no_colour == nullptr || *no_colour == '\0') && term != nullptr &&
+           std::string_view(term) != "dumb";
+}
+
+std::string duration_text(double seconds) {
+    const auto s = static_cast<std::int64_t>(std::llround(std::max(seconds, 0.0)));
+    if (s < 60) return fmt::format("{} s", s);
+    if (s < 3600) return fmt::format("{} min {} s", s / 60, s % 60);
+    return fmt::format("{} h {} min", s / 3600, s / 60 % 60);
+}
+
+Progress::Style Progress::style_for(std::FILE* stream, bool quiet) {
+    if (quiet) return Style::silent;
+    return is_terminal(stream) ? Style::live : Style::lines;
+}
+
+Progress::Progress(std::FILE* stream_, Style style_) : stream(stream_), style(style_) {}
+
+Progress::~Progress() {
+    if (!line_open) return;
+    std::fputs("\r\x1b[K", stream);
+    std::fflush(stream);
+}
+
+void Progress::begin(std::string label_, double from_, double to_) {
+    const std::lock_guard lock(mutex);
+    label = std::move(label_);
+    from = from_;
+    to = to_;
+}
+
+void Progress::update(double fraction) {
+    if (style == Style::silent) return;
+    const double share = from + (to - from) * std::clamp(fraction, 0.0, 1.0);
+    if (style == Style::live) {
+        const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
+        std::int64_t due = next_ms.load();
+        if (now < due || !next_ms.compare_exchange_strong(due, now + live_interval_ms)) return;
+    } else {
+        const int tenth = static_cast<int>(share * 10 + 1e-9);
+        int due = next_tenth.load();
+        if (tenth < due || tenth >= 10 || !next_tenth.compare_exchange_strong(due, tenth + 1)) return;
+    }
+    show(share, false);
+}
+
+void Progress::finish() {
+    if (style != Style::silent) show(1.0, true);
+}
+
+void Progress::show(double share, bool last) {
+    const std::lock_guard lock(mutex);
+    const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    std::string line =
+        fmt::format("{}: {:3.0f} %  {}", label, std::floor(share * 100), duration_text(elapsed));
+    if (!last && share > 0 && elapsed > worth_guessing_s) {
+        line += fmt::format(", about {} left", duration_text(elapsed / share * (1 - share)));
+    }
+    if (style == Style::live) {
+        std::fprintf(stream, "\r%s\x1b[K%s", line.c_str(), last ? "\n" : "");
+        line_open = !last;
+    } else {
+        std::fprintf(stream, "%s\n", line.c_str());
+    }
+    std::fflush(stream);
+}
+
+}  // namespace obscura

@@ -1,0 +1,53 @@
+#pragma once
+// Tells how far the work is: one line that renews itself on a terminal, one line per 10 % elsewhere.
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <string>
+
+namespace obscura {
+
+/// Whether `stream` is a terminal, and one that may be coloured (NO_COLOR unset or empty, TERM not "dumb").
+bool is_terminal(std::FILE* stream);
+bool wants_colour(std::FILE* stream);
+
+/// "8 s", "3 min 20 s", "2 h 5 min".
+std::string duration_text(double seconds);
+
+class Progress {
+  public:
+    enum class Style { silent, lines, live };
+    /// The style that fits `stream`.
+    static Style style_for(std::FILE* stream, bool quiet);
+
+    Progress(std::FILE* stream, Style style);
+    /// Clears the live line.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// What is under way and its share [from, to] of all the work. Single-threaded.
+    void begin(std::string label, double from, double to);
+    /// Fraction in [0, 1] of what is under way. From any thread; cheap when there is nothing to say.
+    void update(double fraction);
+    /// Ends with "LABEL: 100 %".
+    void finish();
+
+  private:
+    void show(double share, bool last);
+
+    using Clock = std::chrono::steady_clock;
+    std::FILE* stream;
+    Style style;
+    Clock::time_point start = Clock::now();
+    std::mutex mutex;
+    std::atomic<std::int64_t> next_ms{0};  ///< live: nothing is written before
+    std::atomic<int> next_tenth{1};        ///< lines: nothing is written before this many tenths
+    std::string label;
+    double from = 0, to = 1;
+    bool line_open = false;
+};
+
+}  // namespace obscura

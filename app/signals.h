@@ -1,0 +1,34 @@
+#pragma once
+// SIGINT and SIGTERM: the first asks the work to stop at its next tile, the second ends the process at once.
+// Either way no half-written file stays behind.
+
+#include <atomic>
+#include <stdexcept>
+
+namespace obscura {
+
+enum class OnSignal {
+    exit_at_once,  ///< remove temporaries, exit with 128 + n
+    ask_to_stop,   ///< set the flag; a second signal exits at once
+};
+
+/// Installs the handlers, ignores SIGPIPE (a closed pipe is then an ordinary write error) and opens
+/// /dev/null in the place of a closed standard stream, so that no output file becomes one.
+void install_signal_handlers();
+/// What the next signal does; at first `exit_at_once`.
+void set_signal_policy(OnSignal policy) noexcept;
+/// Becomes true when the work should stop.
+const std::atomic<bool>& stop_requested() noexcept;
+/// The signal that asked, 0 when none has.
+int received_signal() noexcept;
+
+/// Thrown by work that stopped because of a signal (exit 128 + signal).
+struct Interrupted : std::runtime_error {
+    explicit Interrupted(int signal_) : std::runtime_error("interrupted"), signal(signal_) {}
+    int signal;
+};
+
+/// Throws Interrupted when a signal has asked the work to stop.
+void stop_if_requested();
+
+}  // namespace obscura
