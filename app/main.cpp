@@ -28,6 +28,7 @@ struct Command {
 };
 
 constexpr Command commands[] = {
+    {"diff", "Compare two pictures", run_diff},
     {"info", "Print what a mesh file holds", run_info},
     {"version", "Print version, instruction sets and libraries", run_version},
 };
