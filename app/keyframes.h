@@ -19,7 +19,7 @@ struct FrameRange {
     friend bool operator==(const FrameRange&, const FrameRange&) = default;
 };
 
-/// "7", "1-48" or "1-48x3"; empty when `text` is none of these.
+/// "7", "1-48" or "1-48x2"; empty when `text` is none of these.
 std::optional<FrameRange> parse_frame_range(std::string_view text);
 
 /// The frames the scene asks for.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/file_access.h"
 #include "app/scene_file_parse.h"
 #include "app/scene_keys.h"
 #include "app/scene_override.h"
@@ -9,8 +10,21 @@
 #include "app/scene_rules.h"
 #include "app/scene_toml_text.h"
 #include "app/scene_validate.h"
+#include "core/error.h"
 
 namespace obscura {
+namespace {
+
+/// A scene file that is too large is bad input, whatever the limits say.
+std::string read_scene_bytes(const std::filesystem::path& file, std::int64_t largest) {
+    try {
+        return read_file(file, largest);
+    } catch (const LimitError&) {
+        throw InputError(file.string(), fmt::format("scene file is larger than {} bytes", largest));
+    }
+}
+
+}  // namespace
 
 SceneDocument read_scene_text(std::string_view text, const std::string& filename,
                               const std::vector<std::string>& overrides) {
@@ -24,6 +38,13 @@ SceneDocument read_scene_text(std::string_view text, const std::string& filename
     }
     document.root = validate_table(raw, Place{0, 0, 0}, scene_schema_root(), document.sources);
     apply_rules(document);
+    return document;
+}
+
+SceneDocument read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    constexpr std::int64_t largest = TextBounds{}.bytes;
+    SceneDocument document = read_scene_text(read_scene_bytes(file, largest), file.string(), overrides);
+    document.folder = file.has_parent_path() ? file.parent_path() : ".";
     return document;
 }
 

@@ -78,8 +78,10 @@ std::string unit_hint(std::string_view text, int line) {
     i = text.find_first_not_of("+-.0123456789", std::min(i, text.size()));
     if (i == std::string_view::npos || i == number) return "";
     i = text.find_first_not_of(' ', i);
-    const bool word = i != std::string_view::npos && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
-    return word ? " (a value is a plain number: its unit stands in the key's name)" : "";
+    if (i == std::string_view::npos || std::isalpha(static_cast<unsigned char>(text[i])) == 0) return "";
+    const bool exponent = (text[i] == 'e' || text[i] == 'E') && i + 1 < text.size() &&
+                          std::isalpha(static_cast<unsigned char>(text[i + 1])) == 0;
+    return !exponent ? " (a value is a plain number: its unit stands in the key's name)" : "";
 }
 
 }  // namespace

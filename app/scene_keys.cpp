@@ -327,7 +327,7 @@ const TableSpec& frames_table() {
         "from 350 "
         "to 370 to pass north.",
         {
-            text_key("range", "One frame \"7\", a range \"1-48\", or every third of it \"1-48x3\".")
+            text_key("range", "One frame \"7\", a range \"1-48\", or every other of it \"1-48x2\".")
                 .or_else("1"),
             choice_key("interpolation", {"linear", "smooth"},
                        "linear: straight lines. smooth: Catmull-Rom, that is cubic Hermite curves whose "

@@ -36,7 +36,12 @@ const TableSpec& mesh_table() {
         t.variants.push_back(
             {"file",
              "A Wavefront OBJ with its MTL.",
-             {file_key("file", "OBJ file, relative to the scene file and inside its folder.").need()}});
+             {file_key("file", "OBJ file, relative to the scene file and inside its folder.").need(),
+              number_key("crease_angle_deg",
+                         "Where the file has neither normals nor smoothing groups: smooth across edges "
+                         "that bend less than this.")
+                  .in({0, 180})
+                  .or_else(40.0)}});
         for (const ShapeSpec& shape : shapes()) {
             names.push_back(shape.variant.name);
             t.variants.push_back(shape.variant);
@@ -52,11 +57,10 @@ const TableSpec& mesh_table() {
             t.keys.push_back(std::move(key));
         t.keys.push_back(boolean_key("casts_shadow", "false: light passes through.").or_else(true));
         t.keys.push_back(boolean_key("flip_faces", "Turns every triangle inside out.").or_else(false));
-        t.keys.push_back(
-            number_key("crease_angle_deg",
-                       "Makes new normals: smooth across edges that bend less than this. Without it, "
-                       "normals stay as the file or shape has them.")
-                .in({0, 180}));
+        t.keys.push_back(name_map_key(
+            "materials",
+            "Instead of material: a [material.NAME] per slot of the shape or material of the file; "
+            "slots not named keep their own look."));
         t.keys.push_back(table_list_key("instance", instance));
         return t;
     }();

@@ -88,6 +88,13 @@ void check_mesh(const SceneTable& mesh, const std::vector<std::string>& material
     if (mesh.has("material")) {
         require_known(text(mesh, "material"), place_of(mesh, "material"), materials, "material", sources);
     }
+    if (mesh.has("material") && !subtable(mesh, "materials").entries.empty()) {
+        fail_at(place_of(mesh, "materials"), sources, "give either 'material' or 'materials', not both");
+    }
+    for (const SceneEntry& slot : subtable(mesh, "materials").entries) {
+        require_known(std::get<std::string>(slot.value.data), slot.value.place, materials, "material",
+                      sources);
+    }
     const auto check_scale = [&](const SceneTable& table) {
         const Vec3d s = vec3(table, "scale");
         if (s.x * s.y * s.z == 0) fail_at(place_of(table, "scale"), sources, "'scale' must not be 0");
@@ -95,10 +102,20 @@ void check_mesh(const SceneTable& mesh, const std::vector<std::string>& material
     check_scale(mesh);
     for (const SceneTable* instance : subtables(mesh, "instance"))
         check_scale(*instance);
-    for (const ShapeSpec& shape : shapes()) {
-        if (shape.variant.name != text(mesh, "shape") || !shape.problem) continue;
-        const std::string problem = shape.problem(mesh);
-        if (!problem.empty()) fail_at(place_of(mesh, "id"), sources, problem);
+    const ShapeSpec* shape = find_shape(text(mesh, "shape"));
+    if (shape == nullptr || !shape->problem) return;
+    const std::string problem = shape->problem(mesh);
+    if (!problem.empty()) fail_at(place_of(mesh, "id"), sources, problem);
+}
+
+void check_triangles(const SceneDocument& document) {
+    const std::int64_t limit = integer(subtable(document.root, "limits"), "triangles");
+    std::int64_t total = 0;
+    for (const SceneTable* mesh : subtables(document.root, "mesh"))
+        total += max_triangles(*mesh);
+    if (total > limit) {
+        throw LimitError(fmt::format("{}: shapes of up to {} triangles, more than limits.triangles = {}",
+                                     document.sources[0], total, limit));
     }
 }
 
@@ -199,7 +216,7 @@ void check_frames(const SceneDocument& document, const std::vector<std::string>&
     const SceneTable& frames = subtable(document.root, "frames");
     const auto range = parse_frame_range(text(frames, "range"));
     if (!range)
-        fail_at(place_of(frames, "range"), sources, "'range' must be like \"7\", \"1-48\" or \"1-48x3\"");
+        fail_at(place_of(frames, "range"), sources, "'range' must be like \"7\", \"1-48\" or \"1-48x2\"");
     const std::int64_t limit = integer(subtable(document.root, "limits"), "frames");
     if (range->count() > limit) {
         throw LimitError(
@@ -249,6 +266,7 @@ void apply_rules(SceneDocument& document) {
         root.has("material") ? keys_of(subtable(root, "material")) : std::vector<std::string>{};
     for (const SceneTable* mesh : subtables(root, "mesh"))
         check_mesh(*mesh, materials, sources);
+    check_triangles(document);
 
     const std::vector<std::string> light_ids = unique_ids(root, "light", sources);
     merge_shadows(root, light_ids, sources);

@@ -76,6 +76,9 @@ KeySpec vec3_or_number_key(std::string name, std::string doc) {
 KeySpec date_time_key(std::string name, std::string doc) {
     return key(std::move(name), KeyType::date_time, std::move(doc));
 }
+KeySpec name_map_key(std::string name, std::string doc) {
+    return key(std::move(name), KeyType::name_map, std::move(doc));
+}
 KeySpec table_key(std::string name, const TableSpec& table) {
     return table_of(std::move(name), KeyType::table, table);
 }

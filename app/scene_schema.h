@@ -27,6 +27,7 @@ enum class KeyType {
     table,       ///< [key]
     table_list,  ///< [[key]]
     table_map,   ///< [key.NAME]
+    name_map,    ///< NAME = "name" pairs, whose keys are any text
 };
 
 /// Numbers from lo to hi; an open end excludes its bound. Applies to each component of a vector.
@@ -90,6 +91,7 @@ KeySpec size_key(std::string name, std::string doc);
 KeySpec vec3_key(std::string name, std::string doc);
 KeySpec vec3_or_number_key(std::string name, std::string doc);
 KeySpec date_time_key(std::string name, std::string doc);
+KeySpec name_map_key(std::string name, std::string doc);
 KeySpec table_key(std::string name, const TableSpec& table);
 KeySpec table_list_key(std::string name, const TableSpec& table);
 KeySpec table_map_key(std::string name, const TableSpec& table);

@@ -1,5 +1,7 @@
 #include "app/scene_shapes.h"
 
+#include <algorithm>
+
 #include "scenes/shapes.h"
 
 namespace obscura {
@@ -113,6 +115,20 @@ const std::vector<ShapeSpec>& shapes() {
     static const std::vector<ShapeSpec> all = {box_shape(), plane_shape(), sphere_shape(), cylinder_shape(),
                                                torus_shape()};
     return all;
+}
+
+const ShapeSpec* find_shape(std::string_view name) {
+    for (const ShapeSpec& shape : shapes()) {
+        if (shape.variant.name == name) return &shape;
+    }
+    return nullptr;
+}
+
+std::int64_t max_triangles(const SceneTable& mesh) {
+    const ShapeSpec* shape = find_shape(text(mesh, "shape"));
+    const auto copies =
+        static_cast<std::int64_t>(std::max<std::size_t>(1, subtables(mesh, "instance").size()));
+    return shape == nullptr ? 0 : copies * shape->max_triangles(mesh);
 }
 
 }  // namespace obscura

@@ -22,4 +22,11 @@ struct ShapeSpec {
 /// All shapes but "file".
 const std::vector<ShapeSpec>& shapes();
 
+/// The shape of that name; null when there is none (or for "file").
+const ShapeSpec* find_shape(std::string_view name);
+
+/// Bound of the triangles that a validated [[mesh]] with its instances will have; 0 for files, which are
+/// counted when they are read.
+std::int64_t max_triangles(const SceneTable& mesh);
+
 }  // namespace obscura

@@ -41,6 +41,8 @@ std::string type_text(const KeySpec& key) {
             return fmt::format("a list of tables [[{}]]", key.name);
         case KeyType::table_map:
             return fmt::format("tables [{}.NAME]", key.name);
+        case KeyType::name_map:
+            return fmt::format("a table [{}] of names", key.name);
     }
     return "";
 }
@@ -191,6 +193,21 @@ SceneValue checked_tables(const KeySpec& key, const SceneValue& value, const Sou
     return {std::move(checked), value.place};
 }
 
+/// Keys are free (slots are named by files), values are names.
+SceneValue checked_name_map(const KeySpec& key, const SceneValue& value, const Sources& sources) {
+    const auto* table = std::get_if<SceneTable>(&value.data);
+    if (table == nullptr) wrong_type(key, value, sources);
+    for (const SceneEntry& entry : table->entries) {
+        const auto* name = std::get_if<std::string>(&entry.value.data);
+        if (name == nullptr) {
+            fail_at(entry.value.place, sources,
+                    fmt::format("'{}' holds names, not {}", key.name, found_text(entry.value)));
+        }
+        check_name(*name, fmt::format("a name in '{}'", key.name), entry.value.place, sources);
+    }
+    return value;
+}
+
 SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sources& sources) {
     switch (key.type) {
         case KeyType::boolean:
@@ -215,6 +232,8 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::table_list:
         case KeyType::table_map:
             return checked_tables(key, value, sources);
+        case KeyType::name_map:
+            return checked_name_map(key, value, sources);
     }
     return value;
 }
@@ -297,6 +316,8 @@ SceneTable validate_table(const SceneTable& raw, const Place& place, const Table
                         : fmt::format("{} needs '{}'", where, key->name));
         } else if (key->fallback) {
             result.set(key->name, *key->fallback);
+        } else if (key->type == KeyType::name_map) {
+            result.set(key->name, {SceneTable{}, {}});
         } else if (key->type == KeyType::table) {
             result.set(key->name, {validate_table({}, {}, *key->table, sources), {}});
         }

@@ -1,0 +1,45 @@
+#pragma once
+// From a validated document to what is rendered.
+
+#include <cstdint>
+#include <string>
+
+#include "app/file_access.h"
+#include "app/scene_file.h"
+#include "core/scene.h"
+
+namespace obscura {
+
+/// Loads and makes every mesh, places all instances in one world-space mesh, decodes textures, and sets
+/// camera and lights to the first frame. Topology and planar faces are filled. Limits are checked before
+/// allocating where sizes can be known before. Throws InputError, LimitError.
+Scene build_scene(const SceneDocument& document, const FileAccess& access);
+
+/// Sets camera and lights to `frame`; nothing else depends on it. Cheap.
+void set_frame(Scene& scene, const SceneDocument& document, double frame);
+
+/// The parts of a document that need no files.
+Camera camera_of(const SceneTable& camera);
+Light light_of(const SceneTable& light);
+Limits limits_of(const SceneDocument& document);
+RenderSettings render_settings_of(const SceneDocument& document);
+
+/// Bytes that rendering one frame holds at once, roughly.
+struct MemoryEstimate {
+    std::int64_t meshes = 0, textures = 0, shadow_maps = 0, frame = 0;
+    std::int64_t total() const { return meshes + textures + shadow_maps + frame; }
+};
+
+/// Of a scene that is built.
+MemoryEstimate estimate_memory(const Scene& scene);
+/// Of a document before anything is loaded: shapes by their bounds, files and textures as nothing.
+MemoryEstimate estimate_memory(const SceneDocument& document);
+
+/// Stored depths of a light's shadow maps: 0 without shadows, six maps for a point light.
+int shadow_map_count(const Light& light);
+std::int64_t shadow_map_bytes(const Light& light);
+
+/// Throws LimitError when `estimate` exceeds limits.memory_mib.
+void check_memory(const MemoryEstimate& estimate, const Limits& limits, const std::string& scene_name);
+
+}  // namespace obscura

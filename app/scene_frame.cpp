@@ -1,0 +1,138 @@
+// Tables -> camera, lights, settings. Whatever depends on the frame is here.
+
+#include "app/keyframes.h"
+#include "app/scene_build.h"
+#include "core/num.h"
+#include "core/sun.h"
+
+namespace obscura {
+namespace {
+
+/// Unit vector towards (azimuth clockwise from north = -Z, elevation above the horizon).
+Vec3d towards(double azimuth_deg, double elevation_deg) {
+    const double level = num::cos_deg(elevation_deg);
+    return {level * num::sin_deg(azimuth_deg), num::sin_deg(elevation_deg),
+            -level * num::cos_deg(azimuth_deg)};
+}
+
+/// Relative optical air mass. F. Kasten and A. T. Young, "Revised optical air mass tables and approximation
+/// formula", Applied Optics 28 (1989), equation 3. elevation_deg >= 0, as seen.
+double air_mass(double elevation_deg) {
+    return 1.0 / (num::sin_deg(elevation_deg) + 0.50572 * num::pow(elevation_deg + 6.07995, -1.6364));
+}
+
+/// Optical depths of clear air at 615, 535 and 445 nm: Rayleigh scattering (0.008569 / um^4, rounded) plus
+/// 0.06, 0.08 and 0.10 for aerosol and ozone.
+constexpr Vec3d clear_air{0.12, 0.19, 0.31};
+
+void set_sun(Light& light, const SceneTable& table) {
+    const DateTime t = date_time(table, "time");
+    const double hour_utc = t.hour + (t.minute - t.offset_minutes) / 60.0 +
+                            (t.second + static_cast<double>(t.nanosecond) * 1e-9) / 3600.0;
+    const SunPosition sun = solar_position(t.year, t.month, t.day, hour_utc, number(table, "latitude_deg"),
+                                           number(table, "longitude_deg"));
+    const double elevation = sun.apparent_elevation_deg;
+    light.direction = -towards(sun.azimuth_deg, elevation);
+    light.below_horizon = elevation <= 0;
+    if (light.below_horizon) {
+        light.color = {0, 0, 0};
+    } else if (table.has("irradiance_w_m2")) {
+        light.color = to_float(vec3(table, "irradiance_w_m2"));
+    } else {
+        const double above = number(table, "extraterrestrial_w_m2"), mass = air_mass(elevation);
+        const auto arriving = [&](double depth) { return above * num::exp(-depth * mass); };
+        light.color = to_float(Vec3d{arriving(clear_air.x), arriving(clear_air.y), arriving(clear_air.z)});
+    }
+}
+
+ShadowSettings shadow_of(const SceneTable& table) {
+    ShadowSettings s;
+    s.method = text(table, "method") == "none" ? ShadowMethod::none : ShadowMethod::map;
+    s.resolution = static_cast<int>(integer(table, "resolution"));
+    s.filter_px = static_cast<int>(integer(table, "filter_px"));
+    s.receivers = text(table, "receivers") == "static" ? Receivers::static_only : Receivers::any;
+    s.normal_offset_texels = number(table, "normal_offset_texels");
+    return s;
+}
+
+}  // namespace
+
+Camera camera_of(const SceneTable& table) {
+    Camera camera;
+    camera.eye = vec3(table, "eye_m");
+    camera.look_at = vec3(table, "look_at_m");
+    camera.up = vec3(table, "up");
+    camera.near_m = number(table, "near_m");
+    if (text(table, "projection") == "orthographic") {
+        camera.kind = CameraKind::orthographic;
+        camera.height_m = number(table, "height_m");
+    } else if (table.has("focal_length_mm")) {
+        const double half = 0.5 * number(table, "sensor_height_mm") / number(table, "focal_length_mm");
+        camera.vfov_deg = 2.0 * num::atan(half) * (180.0 / num::pi);
+    } else {
+        camera.vfov_deg = number(table, "vfov_deg");
+    }
+    return camera;
+}
+
+Light light_of(const SceneTable& table) {
+    Light light;
+    light.id = text(table, "id");
+    light.shadow = shadow_of(subtable(table, "shadow"));
+    const std::string& type = text(table, "type");
+    if (type == "sun") {
+        light.kind = LightKind::sun;
+        set_sun(light, table);
+    } else if (type == "directional") {
+        light.kind = LightKind::directional;
+        light.direction = -towards(number(table, "azimuth_deg"), number(table, "elevation_deg"));
+        light.color = to_float(vec3(table, "irradiance_w_m2"));
+    } else {
+        light.kind = type == "point" ? LightKind::point : LightKind::spot;
+        light.position = vec3(table, "position_m");
+        light.color = to_float(vec3(table, "intensity_w_sr"));
+        light.near_m = number(table, "near_m");
+        light.range_m = number(table, "range_m");
+    }
+    if (type == "spot") {
+        light.direction = normalize(vec3(table, "look_at_m") - light.position);
+        light.inner_cone_deg = number(table, "inner_cone_deg");
+        light.outer_cone_deg = number(table, "outer_cone_deg");
+    }
+    return light;
+}
+
+Limits limits_of(const SceneDocument& document) {
+    const SceneTable& table = subtable(document.root, "limits");
+    Limits limits;
+    limits.memory_mib = integer(table, "memory_mib");
+    limits.triangles = integer(table, "triangles");
+    limits.texture_px = integer(table, "texture_px");
+    limits.texture_mib = integer(table, "texture_mib");
+    limits.frames = integer(table, "frames");
+    limits.image_px = integer(table, "image_px");
+    return limits;
+}
+
+RenderSettings render_settings_of(const SceneDocument& document) {
+    const SceneTable& table = subtable(document.root, "render");
+    RenderSettings render;
+    const Size2 size = size2(table, "size_px");
+    render.width = size.width;
+    render.height = size.height;
+    render.samples = static_cast<int>(integer(table, "samples"));
+    render.exposure_ev = number(table, "exposure_ev");
+    render.tone = text(table, "tone") == "linear" ? ToneCurve::linear : ToneCurve::filmic;
+    render.receivers = text(table, "receivers") == "static" ? Receivers::static_only : Receivers::any;
+    return render;
+}
+
+void set_frame(Scene& scene, const SceneDocument& document, double frame) {
+    scene.camera = camera_of(camera_at(document, frame));
+    scene.lights.clear();
+    for (const SceneTable* light : subtables(document.root, "light")) {
+        scene.lights.push_back(light_of(light_at(document, *light, frame)));
+    }
+}
+
+}  // namespace obscura
