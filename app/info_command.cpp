@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "core/edges.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -12,6 +13,17 @@ namespace {
 
 std::size_t count_if(const std::vector<Component>& components, auto&& predicate) {
     return static_cast<std::size_t>(std::count_if(components.begin(), components.end(), predicate));
+}
+
+std::size_t faces_with_area(const Mesh& mesh) {
+    std::vector<bool> has_area(mesh.faces.size(), false);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& v = mesh.triangles[t].v;
+        if (!is_degenerate(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]])) {
+            has_area[mesh.face[t]] = true;
+        }
+    }
+    return static_cast<std::size_t>(std::count(has_area.begin(), has_area.end(), true));
 }
 
 void bounds(const Mesh& mesh, MeshInfo& info) {
@@ -60,7 +72,7 @@ MeshInfo inspect(const ObjModel& model) {
     info.vertices = model.file_positions;
     info.objects = mesh.objects.size();
     info.materials = model.materials.size();
-    info.planar_faces = mesh.faces.size();
+    info.planar_faces = faces_with_area(mesh);
     info.topology = model.topology;
     info.closed = count_if(mesh.components, [](const Component& c) { return c.closed; });
     info.open = mesh.components.size() - info.closed;

@@ -12,7 +12,8 @@ namespace obscura {
 /// The numbers that `info` prints.
 struct MeshInfo {
     std::size_t triangles = 0, vertices = 0;  ///< vertices: positions in the file
-    std::size_t objects = 0, materials = 0, planar_faces = 0;
+    std::size_t objects = 0, materials = 0;
+    std::size_t planar_faces = 0;             ///< that have an area
     std::size_t closed = 0, open = 0;         ///< components
     std::size_t closed_with_multi_edges = 0;  ///< closed, though some edge carries more than two triangles
     std::size_t inside_out = 0;               ///< closed components of negative volume

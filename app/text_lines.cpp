@@ -80,7 +80,13 @@ float parse_float(std::string_view word, const TextPlace& place) {
                          fmt::format("'{}' is not a number{}", shown(word),
                                      comma ? " (decimals are written with a point)" : ""));
     }
-    if (error == std::errc::result_out_of_range || !(std::fabs(value) <= static_cast<double>(FLT_MAX))) {
+    if (error == std::errc::result_out_of_range) {
+        // from_chars does not say which way. A short number with a negative exponent is too small, so zero.
+        const bool tiny = word.size() < 40 && word.find_first_of("eE") != std::string_view::npos &&
+                          word[word.find_first_of("eE") + 1] == '-';
+        value = tiny ? 0.0 : HUGE_VAL;
+    }
+    if (!(std::fabs(value) <= static_cast<double>(FLT_MAX))) {
         throw InputError(place.file, place.line, 0,
                          fmt::format("'{}' is not a finite number in single precision", shown(word)));
     }
