@@ -1,0 +1,153 @@
+#pragma once
+// Runs the built obscura as its users do and keeps what it said.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace obscura::test {
+
+/// What a run left behind. `code` is the exit code, or 1000 + n when signal n killed the process.
+struct Outcome {
+    int code = -1;
+    std::string out, err;
+};
+
+inline std::string file_text(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+/// A folder of this test's own; removed at the end.
+class Folder {
+  public:
+    Folder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "obscura_test_XXXXXX").string();
+        if (::mkdtemp(pattern.data()) != nullptr) path = pattern;
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path / name; }
+    /// Writes a file and returns its name.
+    std::string write(const std::string& name, const std::string& text) const {
+        std::ofstream(path / name, std::ios::binary) << text;
+        return name;
+    }
+    /// Names of everything in it, hidden files too.
+    std::vector<std::string> listing() const {
+        std::vector<std::string> names;
+        for (const auto& entry : std::filesystem::directory_iterator(path))
+            names.push_back(entry.path().filename().string());
+        std::sort(names.begin(), names.end());
+        return names;
+    }
+
+    std::filesystem::path path;
+};
+
+/// One run, from start to the reading of its streams.
+class Program {
+  public:
+    std::filesystem::path folder = ".";    ///< where it runs
+    std::string out_target;                ///< file or device for standard output instead of capturing it
+    bool out_closed = false;               ///< starts without a standard output
+    bool out_broken_pipe = false;          ///< standard output is a pipe nobody reads
+    std::optional<rlim_t> memory_bytes;    ///< ulimit -v
+    std::vector<std::string> environment;  ///< NAME=value on top of ours
+
+    explicit Program(std::vector<std::string> arguments_) : arguments(std::move(arguments_)) {}
+
+    /// Starts the process. Its streams go to files in a folder of their own.
+    void start() {
+        process = ::fork();
+        if (process == 0) become_obscura();
+    }
+    void send(int signal) const { ::kill(process, signal); }
+    bool running() const {
+        siginfo_t info{};
+        return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+               info.si_pid == 0;
+    }
+    /// What it has said on standard error so far.
+    std::string err_so_far() const { return file_text(streams / "err"); }
+
+    Outcome wait() {
+        int status = 0;
+        ::waitpid(process, &status, 0);
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), file_text(streams / "out"),
+                file_text(streams / "err")};
+    }
+    Outcome run() {
+        start();
+        return wait();
+    }
+
+  private:
+    static void redirect(const std::string& target, int to) {
+        const int fd = ::open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
+        if (fd < 0) ::_exit(120);
+        ::dup2(fd, to);
+        ::close(fd);
+    }
+
+    [[noreturn]] void become_obscura() const {
+        if (::chdir(folder.c_str()) != 0) ::_exit(121);
+        redirect((streams / "err").string(), 2);
+        redirect(out_target.empty() ? (streams / "out").string() : out_target, 1);
+        if (out_broken_pipe) {
+            int ends[2];
+            if (::pipe(ends) != 0) ::_exit(122);
+            ::close(ends[0]);
+            ::dup2(ends[1], 1);
+            ::close(ends[1]);
+        }
+        if (out_closed) ::close(1);
+        if (memory_bytes) {
+            const rlimit limit{*memory_bytes, *memory_bytes};
+            ::setrlimit(RLIMIT_AS, &limit);
+        }
+        for (const std::string& variable : environment) {
+            const std::size_t equals = variable.find('=');
+            ::setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
+        }
+        std::vector<char*> argv{const_cast<char*>(OBSCURA_BINARY)};
+        for (const std::string& a : arguments)
+            argv.push_back(const_cast<char*>(a.c_str()));
+        argv.push_back(nullptr);
+        ::execv(OBSCURA_BINARY, argv.data());
+        ::_exit(123);
+    }
+
+    std::vector<std::string> arguments;
+    Folder streams_folder;
+    const std::filesystem::path& streams = streams_folder.path;
+    pid_t process = -1;
+};
+
+/// obscura ARGUMENTS in `folder`.
+inline Outcome run_in(const Folder& folder, std::vector<std::string> arguments) {
+    Program program(std::move(arguments));
+    program.folder = folder.path;
+    return program.run();
+}
+
+}  // namespace obscura::test
