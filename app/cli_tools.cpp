@@ -2,11 +2,15 @@
 
 #include <string>
 
+#include "app/check_command.h"
 #include "app/cli_commands.h"
 #include "app/cli_flags.h"
+#include "app/cli_scene_flags.h"
 #include "app/diff_command.h"
+#include "app/dump_command.h"
 #include "app/info_command.h"
 #include "app/version_command.h"
+#include "core/error.h"
 
 namespace obscura {
 namespace {
@@ -16,6 +20,37 @@ std::vector<std::filesystem::path> as_paths(const std::vector<std::string>& text
 }
 
 }  // namespace
+
+int run_check(const Arguments& arguments) {
+    Flags flags("check [options] SCENE",
+                "Reads, loads and validates a scene and prints what rendering would compute: lights, shadow "
+                "maps, memory, frames. Renders and writes nothing.");
+    SceneFlags scene;
+    scene.add_to(flags);
+    if (!flags.parse(arguments)) return 0;
+    return check_command({scene.scene, scene.all_overrides(), scene.allowed_paths()});
+}
+
+int run_dump(const Arguments& arguments) {
+    Flags flags("dump [options] SCENE",
+                "Prints the effective scene as TOML, defaults and overrides included. Reading that gives the "
+                "same scene again.");
+    DumpOptions options;
+    std::string scene;
+    flags.positional("SCENE", scene, "The scene file (TOML); not with --format.", false);
+    flags.group("Scene");
+    flags.list("-D,--define", "KEY=VALUE", options.overrides,
+               "Replace a value of the scene (see 'obscura render --help'); may be given again.");
+    flags.group("Output");
+    flags.on_off("--format", options.format, "Print the description of the scene format instead.");
+    if (!flags.parse(arguments)) return 0;
+    if (options.format == !scene.empty()) {
+        throw UsageError(options.format ? "--format takes no SCENE (see 'obscura dump --help')"
+                                        : "SCENE is missing (see 'obscura dump --help')");
+    }
+    options.scene = scene;
+    return dump_command(options);
+}
 
 int run_info(const Arguments& arguments) {
     Flags flags("info [options] FILE",

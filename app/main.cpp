@@ -28,8 +28,10 @@ struct Command {
 };
 
 constexpr Command commands[] = {
-    {"diff", "Compare two pictures", run_diff},
+    {"check", "Validate a scene and say what rendering it would take", run_check},
+    {"dump", "Print the effective scene, or the description of the format", run_dump},
     {"info", "Print what a mesh file holds", run_info},
+    {"diff", "Compare two pictures", run_diff},
     {"version", "Print version, instruction sets and libraries", run_version},
 };
 
