@@ -32,6 +32,7 @@ SceneDocument read_scene_text(std::string_view text, const std::string& filename
     document.sources.push_back(filename);
     precheck_scene_text(text, filename);
     SceneTable raw = parse_toml(text, filename, 0);
+    if (raw.entries.empty()) throw InputError(filename, "no camera: the scene is empty");
     for (const std::string& override_text : overrides) {
         apply_override(raw, override_text, static_cast<int>(document.sources.size()));
         document.sources.push_back("-D " + override_text);

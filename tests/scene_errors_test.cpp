@@ -41,7 +41,7 @@ const std::vector<BadScene>& bad_scenes() {
     static const std::string directional = "type = \"directional\"\nazimuth_deg = 0\nelevation_deg = 45\n";
     static const std::string box = "[[mesh]]\nid = \"a\"\nshape = \"box\"\n";
     static const std::vector<BadScene> all = {
-        {"Empty", "", "s.toml: scene needs 'format'"},
+        {"Empty", "", "s.toml: no camera: the scene is empty"},
         {"NoCamera", "format = 1", "s.toml: no camera: the scene needs [camera]"},
         {"WrongVersion", scene("").replace(9, 1, "2"), "s.toml:1:10: 'format' must be one of 1, not 2"},
         {"Nul", scene(std::string("x\0", 2)), "s.toml:3:2: NUL byte: this is not a text file"},

@@ -1,0 +1,315 @@
+// The format's description is complete, and every key it describes is read: changing it changes the scene.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "app/keyframes.h"
+#include "app/scene_build.h"
+#include "app/scene_format_doc.h"
+#include "app/scene_keys.h"
+#include "app/scene_shapes.h"
+#include "app/scene_toml_text.h"
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/image_io.h"
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string committed_doc() {
+    std::stringstream text;
+    text << std::ifstream(fs::path(OBSCURA_SOURCE_DIR) / "app/scene_format.md").rdbuf();
+    return text.str();
+}
+
+TEST(SceneFormat, DescriptionIsTheCommittedOne) {
+    EXPECT_TRUE(scene_format_doc() == committed_doc())
+        << "app/scene_format.md is stale; write it anew: obscura dump --format > app/scene_format.md";
+}
+
+/// Calls fn(table, keys of the table or of one of its variants) for everything below `spec`.
+void for_each_key_list(const TableSpec& spec,
+                       const std::function<void(const TableSpec&, const std::vector<KeySpec>&)>& fn) {
+    fn(spec, spec.keys);
+    for (const VariantSpec& variant : spec.variants)
+        fn(spec, variant.keys);
+    for (const KeySpec& key : spec.keys) {
+        if (key.table != nullptr) for_each_key_list(*key.table, fn);
+    }
+}
+
+TEST(SceneFormat, EveryKeyIsDescribed) {
+    const std::string doc = committed_doc();
+    for_each_key_list(scene_schema_root(), [&](const TableSpec& table, const std::vector<KeySpec>& keys) {
+        for (const KeySpec& key : keys) {
+            if (key.table != nullptr) {
+                EXPECT_NE(doc.find("## `" + key.table->path + "`"), std::string::npos) << key.table->path;
+                continue;
+            }
+            EXPECT_GE(key.doc.size(), 5u) << table.path << " " << key.name;
+            EXPECT_NE(doc.find("| `" + key.name + "`"), std::string::npos) << table.path << " " << key.name;
+        }
+    });
+}
+
+// --- every key is read
+
+/// Everything that rendering can see of a scene: at its frames, and between keyframes.
+std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& access) {
+    Scene s = build_scene(document, access);
+    Hasher h;
+    const auto words = [&](const std::string& text) { h.bytes(text.data(), text.size()).value(text.size()); };
+    const auto number = [&](auto v) { h.value(v); };
+    h.values(s.mesh.positions)
+        .values(s.mesh.normals)
+        .values(s.mesh.uvs)
+        .values(s.mesh.triangles)
+        .values(s.mesh.material);
+    for (const Object& o : s.mesh.objects)
+        words(o.name + (o.casts_shadow ? "+" : "-"));
+    for (const Material& m : s.materials) {
+        h.value(m.base_color)
+            .value(m.roughness)
+            .value(m.metallic)
+            .value(m.emission)
+            .value(m.texture)
+            .value(m.translucency);
+        words(m.name);
+    }
+    for (const Texture& t : s.textures)
+        h.values(t.levels.at(0).pixels);
+    h.value(s.sky.zenith).value(s.sky.horizon).value(s.sky.ground).value(s.sky.ambient).value(s.sky.visible);
+    h.value(s.render.width).value(s.render.height).value(s.render.samples).value(s.render.exposure_ev);
+    h.value(s.render.tone).value(s.render.receivers);
+    for (const Output& o : s.outputs)
+        words(o.file + std::to_string(static_cast<int>(o.aov)));
+    h.value(s.limits.memory_mib)
+        .value(s.limits.triangles)
+        .value(s.limits.texture_px)
+        .value(s.limits.texture_mib);
+    h.value(s.limits.frames).value(s.limits.image_px);
+    const FrameRange range = scene_frames(document);
+    number(range.count());
+    for (int i = 0; i < range.count(); ++i) {
+        set_frame(s, document, range.at(i));
+        const Camera& c = s.camera;
+        h.value(c.kind)
+            .value(c.eye)
+            .value(c.look_at)
+            .value(c.up)
+            .value(c.vfov_deg)
+            .value(c.height_m)
+            .value(c.near_m);
+        for (const Light& l : s.lights) {
+            words(l.id);
+            h.value(l.kind).value(l.direction).value(l.position).value(l.color).value(l.inner_cone_deg);
+            h.value(l.outer_cone_deg)
+                .value(l.near_m)
+                .value(l.range_m)
+                .value(l.below_horizon)
+                .value(l.shadow.method);
+            h.value(l.shadow.resolution).value(l.shadow.filter_px).value(l.shadow.receivers);
+            h.value(l.shadow.normal_offset_texels);
+        }
+    }
+    return h.state;
+}
+
+/// Values to try for a key, in TOML: whatever its type allows.
+std::vector<std::string> candidates(const KeySpec& key) {
+    static const std::map<std::string, std::vector<std::string>> special = {
+        {"file", {"\"other.obj\"", "\"other_####.png\""}},
+        {"texture", {"\"other.png\""}},
+        {"material", {"\"other\""}},
+        {"materials", {"{default = \"other\"}"}},
+        {"range", {"\"2-6\""}},
+        {"id", {"\"renamed\"", "\"second\""}},
+        {"time", {"2026-06-21T10:00:00Z"}},
+        {"frame", {"2.5"}},
+    };
+    if (const auto it = special.find(key.name); it != special.end()) return it->second;
+    std::vector<std::string> values;
+    const auto add = [&](double v) {
+        if (key.range.contains(v)) values.push_back(toml_text(value_of(v)));
+    };
+    switch (key.type) {
+        case KeyType::boolean:
+            return {"true", "false"};
+        case KeyType::choice:
+            for (const std::string& c : key.choices)
+                values.push_back("\"" + c + "\"");
+            return values;
+        case KeyType::integer:
+            for (const std::int64_t v : key.allowed)
+                values.push_back(std::to_string(v));
+            for (const std::int64_t v : {3, 5, 8, 2, 1500}) {
+                if (key.allowed.empty() && key.range.contains(static_cast<double>(v)))
+                    values.push_back(std::to_string(v));
+            }
+            return values;
+        case KeyType::size2:
+            return {"[32, 16]"};
+        case KeyType::vec3:
+        case KeyType::vec3_or_number:
+            return {"[0.25, 0.5, 0.75]"};
+        default:
+            for (const double v : {0.3, 0.07, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0})
+                add(v);
+            return values;
+    }
+}
+
+class SceneKeys : public testing::Test {
+  protected:
+    void SetUp() override {
+        std::string name = (fs::temp_directory_path() / "obscura_keys_XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        access_.root = name;
+        write("tent.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 1\nv 1 2 0\nv 0 2 0\nf 1 2 3 4\nf 4 3 5 6\n");
+        write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        write("one.png", encode_png(Image<Rgb8>(2, 2, Rgb8{10, 20, 30}).view()));
+        write("other.png", encode_png(Image<Rgb8>(2, 2, Rgb8{40, 20, 30}).view()));
+    }
+    void TearDown() override { fs::remove_all(access_.root); }
+    void write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(access_.root / name, std::ios::binary) << bytes;
+    }
+
+    /// True when some value of `key` under `prefix` gives another scene than `base`.
+    bool matters(const std::string& base, const std::string& prefix, const KeySpec& key) const {
+        const std::uint64_t before = fingerprint(read_scene_text(base, "base.toml"), access_);
+        for (const std::string& value : candidates(key)) {
+            try {
+                const SceneDocument changed =
+                    read_scene_text(base, "base.toml", {prefix + key.name + "=" + value});
+                if (fingerprint(changed, access_) != before) return true;
+            } catch (const InputError&) {
+                // Not every candidate fits: another one may.
+            } catch (const LimitError&) {
+            }
+        }
+        return false;
+    }
+
+    void expect_all_matter(const std::vector<std::string>& bases, const std::string& prefix,
+                           const std::vector<KeySpec>& keys, const std::set<std::string>& except = {}) {
+        for (const KeySpec& key : keys) {
+            if (key.table != nullptr || except.count(key.name) != 0) continue;
+            const bool any = std::any_of(bases.begin(), bases.end(),
+                                         [&](const std::string& base) { return matters(base, prefix, key); });
+            EXPECT_TRUE(any) << prefix << key.name << " changes nothing";
+        }
+    }
+
+    FileAccess access_;
+};
+
+const std::string start = "format = 1\n[limits]\n[material.main]\ntexture = \"one.png\"\n[material.other]\n";
+const std::string camera = "[camera]\neye_m = [1, 2, 5]\nlook_at_m = [0, 0, 0]\n";
+const std::string keyframes = "[frames]\nrange = \"1-5\"\n";
+
+TEST_F(SceneKeys, OfCameraAreRead) {
+    const std::string fov = start + camera, lens = fov + "focal_length_mm = 35\n",
+                      flat = fov + "projection = \"orthographic\"\nheight_m = 2\n";
+    expect_all_matter({flat}, "camera.", camera_table().keys, {"projection"});
+    EXPECT_NE(fingerprint(read_scene_text(fov, "a"), access_),
+              fingerprint(read_scene_text(flat, "a"), access_));
+    expect_all_matter({fov, lens}, "camera.", camera_table().variants.at(0).keys);
+    expect_all_matter({flat}, "camera.", camera_table().variants.at(1).keys);
+}
+
+TEST_F(SceneKeys, OfMeshesAreRead) {
+    const auto with = [](const std::string& keys) {
+        return start + camera + "[[mesh]]\nid = \"m\"\n" + keys;
+    };
+    const std::string box = with("shape = \"box\"\n[[mesh.instance]]\n"), file = with("file = \"tent.obj\"");
+    expect_all_matter({box}, "mesh.m.", mesh_table().keys, {"shape"});
+    EXPECT_NE(fingerprint(read_scene_text(box, "a"), access_),
+              fingerprint(read_scene_text(file, "a"), access_));
+    for (const KeySpec& key : mesh_table().keys) {
+        if (key.name == "instance") expect_all_matter({box}, "mesh.m.instance.0.", key.table->keys);
+    }
+    expect_all_matter({file}, "mesh.m.", mesh_table().variants.at(0).keys);
+    for (const ShapeSpec& shape : shapes()) {
+        expect_all_matter({with("shape = \"" + shape.variant.name + "\"")}, "mesh.m.", shape.variant.keys);
+    }
+}
+
+const std::map<std::string, std::string> lights = {
+    {"directional", "azimuth_deg = 20\nelevation_deg = 30\n"},
+    {"sun", "latitude_deg = 48\nlongitude_deg = 16\ntime = 2026-06-21T12:00:00Z\n"},
+    {"point", "position_m = [0, 3, 0]\nintensity_w_sr = 5\n"},
+    {"spot", "position_m = [0, 3, 0]\nintensity_w_sr = 5\nlook_at_m = [0, 0, 0]\n"},
+};
+
+TEST_F(SceneKeys, OfLightsAndShadowsAreRead) {
+    for (const VariantSpec& variant : light_table().variants) {
+        const std::string base = start + camera + "[[light]]\nid = \"l\"\ntype = \"" + variant.name + "\"\n" +
+                                 lights.at(variant.name);
+        expect_all_matter({base}, "light.l.", light_table().keys, {"type"});
+        expect_all_matter({base}, "light.l.", variant.keys);
+        expect_all_matter({base}, "light.l.shadow.", shadow_table().keys);
+        expect_all_matter({base}, "shadow.l.", shadow_table().keys);
+    }
+}
+
+TEST_F(SceneKeys, OfFramesAreRead) {
+    const auto list = [](const char* name) -> const std::vector<KeySpec>& {
+        for (const KeySpec& key : frames_table().keys) {
+            if (key.name == name) return key.table->keys;
+        }
+        throw UsageError(name);
+    };
+    const std::string smooth =
+        start + camera + keyframes +
+        "[[frames.camera]]\nframe = 1\neye_m = [0, 0, 5]\n[[frames.camera]]\nframe = 3\neye_m = [3, 1, 5]\n"
+        "[[frames.camera]]\nframe = 5\neye_m = [4, 4, 5]\n";
+    expect_all_matter({smooth}, "frames.", frames_table().keys);
+    const std::string one =
+        keyframes +
+        "[[frames.camera]]\nframe = 1\neye_m = [0, 0, 5]\n[[frames.camera]]\nframe = 4\neye_m = [0, 1, 5]\n";
+    expect_all_matter({start + camera + one, start + camera + "focal_length_mm = 35\n" + one,
+                       start + camera + "projection = \"orthographic\"\nheight_m = 2\n" + one},
+                      "frames.camera.0.", list("camera"));
+    const std::map<std::string, std::string> other = {{"directional", "azimuth_deg = 90\n"},
+                                                      {"sun", "time = 2026-06-21T15:00:00Z\n"},
+                                                      {"point", "position_m = [1, 3, 0]\n"},
+                                                      {"spot", "position_m = [1, 3, 0]\n"}};
+    const std::map<std::string, std::string> first = {{"directional", "azimuth_deg = 20\n"},
+                                                      {"sun", "time = 2026-06-21T12:00:00Z\n"},
+                                                      {"point", "position_m = [0, 3, 0]\n"},
+                                                      {"spot", "position_m = [0, 3, 0]\n"}};
+    std::vector<std::string> bases;
+    for (const auto& [type, keys] : lights) {
+        const std::string light = "type = \"" + type + "\"\n" + keys;
+        bases.push_back(start + camera + "[[light]]\nid = \"l\"\n" + light + "[[light]]\nid = \"second\"\n" +
+                        light + keyframes + "[[frames.light]]\nframe = 1\nid = \"l\"\n" + first.at(type) +
+                        "[[frames.light]]\nframe = 4\nid = \"l\"\n" + other.at(type));
+    }
+    expect_all_matter(bases, "frames.light.0.", list("light"));
+}
+
+TEST_F(SceneKeys, OfEverythingElseAreRead) {
+    const std::string base =
+        start + camera + "[[output]]\nfile = \"a_####.png\"\n[[mesh]]\nid = \"m\"\nshape = \"box\"\n";
+    for (const KeySpec& key : scene_schema_root().keys) {
+        if (key.name == "material") expect_all_matter({base}, "material.main.", key.table->keys);
+        if (key.name == "sky" || key.name == "render" || key.name == "limits") {
+            expect_all_matter({base}, key.name + ".", key.table->keys);
+        }
+        if (key.name == "output") expect_all_matter({base}, "output.0.", key.table->keys);
+    }
+}
+
+}  // namespace
+}  // namespace obscura
