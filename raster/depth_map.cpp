@@ -30,9 +30,12 @@ void depth_map(const Mesh& mesh, const View& view, const SetupParams& params, co
                              tile, depth);
             const int width = std::min(tile_side, view.width - tile.x0);
             const int height = std::min(tile_side, view.height - tile.y0);
-            for (int y = 0; y < height; ++y)
-                std::copy_n(depth + y * tile_side, width, &out(tile.x0, tile.y0 + y));
+            for (int y = 0; y < height; ++y) {
+                copy_streaming(&out(tile.x0, tile.y0 + y), depth + y * tile_side,
+                               static_cast<std::size_t>(width) * sizeof(float));
+            }
         }
+        finish_streaming();
     });
 }
 

@@ -76,9 +76,11 @@ void interval_map(const Mesh& mesh, const LightView& view, const IntervalParams&
             const int width = std::min(layer_tile_side, view.width - tile.x0);
             const int height = std::min(layer_tile_side, view.height - tile.y0);
             for (int y = 0; y < height; ++y) {
-                std::copy_n(result + y * layer_tile_side, width, &out(tile.x0, tile.y0 + y));
+                copy_streaming(&out(tile.x0, tile.y0 + y), result + y * layer_tile_side,
+                               static_cast<std::size_t>(width) * sizeof(DepthInterval));
             }
         }
+        finish_streaming();
     });
 }
 
