@@ -49,11 +49,10 @@ void depth_tile(const TriangleRecord* records, const std::uint32_t* list, std::s
 void visibility_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
                      const TileRect& tile, float* depth, std::uint32_t* triangle) noexcept {
     NearestTriangle nearest{depth, reinterpret_cast<std::int32_t*>(triangle), splat(std::int32_t{0})};
-    for (std::size_t i = 0; i < count; ++i) {
-        const TriangleRecord& t = records[list[i]];
+    for_each_listed(records, list, count, [&](const TriangleRecord& t) {
         nearest.id = splat(static_cast<std::int32_t>(t.triangle));
         walk_triangle(t, tile, nearest);
-    }
+    });
 }
 
 }  // namespace obscura::OBSCURA_ISA

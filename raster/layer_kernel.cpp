@@ -33,31 +33,37 @@ struct Insertion {
         }
     }
 
+    /// Compares with the layer below and keeps the nearer; the farther goes on.
+    OBSCURA_INLINE void sink(LayerKey* place, std::int32_t* id_place, I32& key, I32& ids) {
+        const I32 old = load(place);
+        if constexpr (with_triangles) {
+            const I32 old_ids = load(id_place);
+            const Mask before = pair_less(key, ids, old, old_ids);
+            store(place, select(before, key, old));
+            store(id_place, select(before, ids, old_ids));
+            key = select(before, old, key);
+            ids = select(before, old_ids, ids);
+        } else {
+            store(place, min(key, old));
+            key = max(key, old);
+        }
+    }
+
     /// Bubbles sixteen keys (no_layer where there is none) into the sorted layers at `at`.
     OBSCURA_INLINE void insert(std::int32_t at, I32 key) {
         std::int32_t& filled = stack.filled[at / lanes];
-        const I32 nothing = splat(no_layer);
         I32 ids = id;
+        LayerKey* place = stack.keys + at;
+        std::int32_t* id_place = with_triangles ? stack.triangles + at : nullptr;
         for (std::int32_t l = 0; l < filled; ++l) {
-            LayerKey* place = stack.keys + l * layer_tile_texels + at;
-            const I32 old = load(place);
-            if constexpr (with_triangles) {
-                std::int32_t* id_place = stack.triangles + l * layer_tile_texels + at;
-                const I32 old_ids = load(id_place);
-                const Mask before = pair_less(key, ids, old, old_ids);
-                store(place, select(before, key, old));
-                store(id_place, select(before, ids, old_ids));
-                key = select(before, old, key);
-                ids = select(before, old_ids, ids);
-            } else {
-                store(place, min(key, old));
-                key = max(key, old);
-            }
-            if (all(equal(key, nothing))) return;
+            sink(place, id_place, key, ids);
+            place += layer_tile_texels;
+            if constexpr (with_triangles) id_place += layer_tile_texels;
         }
+        if (all(equal(key, splat(no_layer)))) return;
         if (filled < layers_in_place) {
-            store(stack.keys + filled * layer_tile_texels + at, key);
-            if constexpr (with_triangles) store(stack.triangles + filled * layer_tile_texels + at, ids);
+            store(place, key);
+            if constexpr (with_triangles) store(id_place, ids);
             ++filled;
         } else {
             spill(at, key, ids);
@@ -69,7 +75,7 @@ struct Insertion {
     }
     OBSCURA_INLINE void covered(std::int32_t at, const F32& z) { insert(at, key_of(z)); }
     OBSCURA_INLINE void partial(std::int32_t at, const Mask& inside, const F32& z) {
-        insert(at, select(inside, key_of(z), splat(no_layer)));
+        if (any(inside)) insert(at, select(inside, key_of(z), splat(no_layer)));
     }
 };
 
@@ -80,12 +86,11 @@ void insert_all(const TriangleRecord* records, const std::uint32_t* list, std::s
         stack.filled[i] = 0;
     stack.spill_count = 0;
     Insertion<with_triangles> insertion{stack, splat(std::int32_t{0}), splat(std::int32_t{0})};
-    for (std::size_t i = 0; i < count; ++i) {
-        const TriangleRecord& t = records[list[i]];
+    for_each_listed(records, list, count, [&](const TriangleRecord& t) {
         insertion.crossing = splat(static_cast<std::int32_t>(t.crossing));
         insertion.id = splat(static_cast<std::int32_t>(t.triangle));
         walk_triangle(t, tile, insertion);
-    }
+    });
 }
 
 /// The counter of intervals.h over sixteen rays. All lanes of a row walk the layers together.

@@ -52,13 +52,19 @@ VertexMap vertex_map(const View& view) {
     return map;
 }
 
-void transform_all(const Mesh& mesh, const View& view, const Exec& exec, Buffer<MapVertex>& out) {
+/// Whether any vertex must be clipped.
+bool transform_all(const Mesh& mesh, const View& view, const Exec& exec, Buffer<MapVertex>& out) {
     out.reset(mesh.positions.size());
     const VertexMap map = vertex_map(view);
     const float* xyz = &mesh.positions.data()->x;
-    parallel_blocks(mesh.positions.size(), block_vertices, exec, [&](std::size_t begin, std::size_t end) {
+    std::vector<int> clipped((out.size() + block_vertices - 1) / block_vertices, 0);
+    parallel_blocks(out.size(), block_vertices, exec, [&](std::size_t begin, std::size_t end) {
         OBSCURA_DISPATCH(exec.isa, transform_vertices, xyz, begin, end, map, out.data());
+        int any = 0;
+        for (std::size_t i = begin; i < end; ++i) any |= out[i].clip;
+        clipped[begin / block_vertices] = any;
     });
+    return std::any_of(clipped.begin(), clipped.end(), [](int clip) { return clip != 0; });
 }
 
 /// Depth range of each planar face, over all its triangles.
@@ -186,13 +192,14 @@ class BlockSetup {
 
 /// Room for each block: one record a triangle, but six where a triangle must be clipped (eight corners at
 /// most).
-void lay_out_blocks(const Mesh& mesh, const Exec& exec, TriangleSetup& s) {
+void lay_out_blocks(const Mesh& mesh, bool clipping, const Exec& exec, TriangleSetup& s) {
     const std::size_t triangles = mesh.triangles.size();
     s.blocks.assign((triangles + block_triangles - 1) / block_triangles, {});
     std::vector<std::size_t> room(s.blocks.size());
     parallel_for(s.blocks.size(), exec, [&](std::size_t b) {
         const std::size_t begin = b * block_triangles, end = std::min(begin + block_triangles, triangles);
         room[b] = end - begin;
+        if (!clipping) return;
         for (std::size_t t = begin; t < end; ++t) {
             const Triangle& tri = mesh.triangles[t];
             const int clip =
@@ -242,10 +249,10 @@ void setup_triangles(const Mesh& mesh, const View& view, const SetupParams& para
     CHECK(view.width <= (1 << 20) && view.height <= (1 << 20));
     setup.blocks.clear();
     if (mesh.triangles.empty()) return;
-    transform_all(mesh, view, exec, setup.vertices);
+    const bool clipping = transform_all(mesh, view, exec, setup.vertices);
     face_ranges(mesh, view, exec, setup);
     face_planes(mesh, view, exec, setup);
-    lay_out_blocks(mesh, exec, setup);
+    lay_out_blocks(mesh, clipping, exec, setup);
     parallel_for(setup.blocks.size(), exec, [&](std::size_t b) {
         const std::size_t begin = b * block_triangles;
         BlockSetup(mesh, view, params, setup)

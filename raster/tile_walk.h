@@ -26,44 +26,47 @@ OBSCURA_INLINE std::int32_t most(std::int32_t a, std::int32_t b) {
 /// Columns [c0, c1] and rows [r0, r1] of the tile whose samples the triangle's box holds.
 struct SampleBox {
     std::int32_t c0, c1, r0, r1;
+    bool small;  ///< the whole triangle spans less than 256 texels each way
     bool empty() const { return c0 > c1 || r0 > r1; }
 };
 
 OBSCURA_INLINE SampleBox sample_box(const TriangleRecord& t, const TileRect& tile) {
-    const std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]),
-                       x_high = most(most(t.x[0], t.x[1]), t.x[2]);
-    const std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]),
-                       y_high = most(most(t.y[0], t.y[1]), t.y[2]);
-    const auto first = [](std::int32_t v, std::int32_t sample) {
-        return (v - sample + 255) >> subtexel_bits;
-    };
+    const std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]), x_high = most(most(t.x[0], t.x[1]), t.x[2]);
+    const std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]), y_high = most(most(t.y[0], t.y[1]), t.y[2]);
+    const auto first = [](std::int32_t v, std::int32_t sample) { return (v - sample + 255) >> subtexel_bits; };
     const auto last = [](std::int32_t v, std::int32_t sample) { return (v - sample) >> subtexel_bits; };
     return {most(first(x_low, tile.sample_x) - tile.x0, 0),
             least(last(x_high, tile.sample_x) - tile.x0, tile.width - 1),
             most(first(y_low, tile.sample_y) - tile.y0, 0),
-            least(last(y_high, tile.sample_y) - tile.y0, tile.height - 1)};
+            least(last(y_high, tile.sample_y) - tile.y0, tile.height - 1),
+            ((x_high - x_low) | (y_high - y_low)) < 65536};
 }
 
-/// One edge over the box: value at its first sample, steps per column and row, and its extremes.
+/// One edge over the box: value at its first sample, steps per column and row.
 struct BoxEdge {
     std::int64_t e = 0, A = 0, B = 0;
-    std::int64_t low = 0, high = 0;
 };
 
 OBSCURA_INLINE BoxEdge box_edge(const TriangleRecord& t, int k, const TileRect& tile, std::int32_t column,
-                                std::int32_t row, std::int32_t columns, std::int32_t rows) {
+                                std::int32_t row) {
     const int n = k == 2 ? 0 : k + 1;
     BoxEdge f;
     f.A = static_cast<std::int64_t>(t.y[k]) - t.y[n];
     f.B = static_cast<std::int64_t>(t.x[n]) - t.x[k];
     const std::int64_t px = (static_cast<std::int64_t>(tile.x0) + column) * subtexel_one + tile.sample_x;
     const std::int64_t py = (static_cast<std::int64_t>(tile.y0) + row) * subtexel_one + tile.sample_y;
-    const bool keeps_its_edge = f.A > 0 || (f.A == 0 && f.B > 0);
-    f.e = (f.A * (px - t.x[k]) + f.B * (py - t.y[k]) - (keeps_its_edge ? 0 : 1)) >> subtexel_bits;
-    const std::int64_t dx = f.A * (columns - 1), dy = f.B * (rows - 1);
-    f.low = f.e + (dx < 0 ? dx : 0) + (dy < 0 ? dy : 0);
-    f.high = f.e + (dx > 0 ? dx : 0) + (dy > 0 ? dy : 0);
+    const std::int64_t keeps_its_edge = (f.A > 0) | ((f.A == 0) & (f.B > 0));
+    f.e = (f.A * (px - t.x[k]) + f.B * (py - t.y[k]) + keeps_its_edge - 1) >> subtexel_bits;
     return f;
+}
+
+/// Least and greatest value of an edge over columns x rows samples from its first.
+struct EdgeRange {
+    std::int64_t low, high;
+};
+OBSCURA_INLINE EdgeRange edge_range(std::int64_t first, const BoxEdge& f, std::int32_t columns, std::int32_t rows) {
+    const std::int64_t dx = f.A * (columns - 1), dy = f.B * (rows - 1);
+    return {first + (dx < 0 ? dx : 0) + (dy < 0 ? dy : 0), first + (dx > 0 ? dx : 0) + (dy > 0 ? dy : 0)};
 }
 
 /// Depth of one row of sixteen: a X is kept for the column, b Y + c comes with the row.
@@ -106,10 +109,8 @@ OBSCURA_INLINE void walk_edges(const TriangleRecord& t, const TileRect& tile, co
     const double sample_y = static_cast<double>(tile.sample_y) * (1.0 / subtexel_one);
     for (std::int32_t r = r0; r <= r1; ++r) {
         const Mask inside = not_negative(e[0] | e[1] | e[2]);
-        if (any(inside)) {
-            const double Y = static_cast<double>(tile.y0 + r) + sample_y;
-            consumer.partial(r * tile.width + column, inside, depth.at(t.b * Y + t.c));
-        }
+        const double Y = static_cast<double>(tile.y0 + r) + sample_y;
+        consumer.partial(r * tile.width + column, inside, depth.at(t.b * Y + t.c));
         for (int k = 0; k < 3; ++k)
             e[k] = e[k] + step[k];
     }
@@ -122,53 +123,82 @@ OBSCURA_INLINE I64 lane_index_64() {
     return load(index);
 }
 
-/// Feeds every covered sample of `tile` to the consumer, in rows of sixteen texels:
-/// consumer.covered(offset, depth) or consumer.partial(offset, mask, depth); offset = row * width + column.
+OBSCURA_INLINE DepthRow depth_row(const TriangleRecord& t, const TileRect& tile, std::int32_t column) {
+    return {splat(t.a) * column_positions(tile, column), splat(t.zmin), splat(t.zmax)};
+}
+
+/// Boxes of several columns of sixteen, and triangles of any size.
 template <class Consumer>
-OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile, Consumer& consumer) {
-    const SampleBox box = sample_box(t, tile);
-    if (box.empty()) return;
-    const std::int32_t c0 = box.c0 & ~15, c1 = box.c1 | 15;
+OBSCURA_INLINE void walk_box(const TriangleRecord& t, const TileRect& tile, const SampleBox& box,
+                             Consumer& consumer) {
+    const std::int32_t c0 = box.c0 & ~15, columns = (box.c1 | 15) - c0 + 1, rows = box.r1 - box.r0 + 1;
 
     // An edge with the whole box inside it is forgotten; one with the whole box outside ends the triangle.
     BoxEdge edge[3];
     bool wide = false, crossed = false;
     for (int k = 0; k < 3; ++k) {
-        edge[k] = box_edge(t, k, tile, c0, box.r0, c1 - c0 + 1, box.r1 - box.r0 + 1);
-        if (edge[k].high < 0) return;
-        if (edge[k].low >= 0) {
+        edge[k] = box_edge(t, k, tile, c0, box.r0);
+        const EdgeRange range = edge_range(edge[k].e, edge[k], columns, rows);
+        if (range.high < 0) return;
+        if (range.low >= 0) {
             edge[k] = BoxEdge{};
         } else {
             crossed = true;
-            wide = wide || edge[k].low < INT32_MIN || edge[k].high > INT32_MAX;
+            wide = wide || range.low < INT32_MIN || range.high > INT32_MAX;
         }
     }
-
-    const std::int64_t rows = box.r1 - box.r0;
     for (std::int32_t c = c0; c <= box.c1; c += lanes) {
-        // The same question again for each column of sixteen, where there are several.
+        // The same question again for each column of sixteen.
         bool covered = !crossed;
-        if (crossed && c1 - c0 >= lanes) {
+        if (crossed) {
             bool outside = false;
             covered = true;
             for (const BoxEdge& f : edge) {
-                const std::int64_t first = f.e + f.A * (c - c0);
-                const std::int64_t dx = f.A * (lanes - 1), dy = f.B * rows;
-                outside = outside || first + (dx > 0 ? dx : 0) + (dy > 0 ? dy : 0) < 0;
-                covered = covered && first + (dx < 0 ? dx : 0) + (dy < 0 ? dy : 0) >= 0;
+                const EdgeRange range = edge_range(f.e + f.A * (c - c0), f, lanes, rows);
+                outside = outside || range.high < 0;
+                covered = covered && range.low >= 0;
             }
             if (outside) continue;
         }
-        const DepthRow depth{splat(t.a) * column_positions(tile, c), splat(t.zmin), splat(t.zmax)};
+        const DepthRow depth = depth_row(t, tile, c);
         if (covered) {
             walk_covered(t, tile, c, box.r0, box.r1, depth, consumer);
         } else if (!wide) {
-            walk_edges<I32, std::int32_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index(), depth,
-                                          consumer);
+            walk_edges<I32, std::int32_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index(), depth, consumer);
         } else {
-            walk_edges<I64, std::int64_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index_64(), depth,
-                                          consumer);
+            walk_edges<I64, std::int64_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index_64(), depth, consumer);
         }
+    }
+}
+
+/// Feeds every covered sample of `tile` to the consumer, in rows of sixteen texels:
+/// consumer.covered(offset, depth) or consumer.partial(offset, mask, depth); offset = row * width + column.
+/// partial() may be called with an empty mask.
+template <class Consumer>
+OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile, Consumer& consumer) {
+    const SampleBox box = sample_box(t, tile);
+    if (box.empty()) return;
+    const std::int32_t column = box.c0 & ~15;
+    if (!box.small || box.c1 - column >= lanes) {
+        walk_box(t, tile, box, consumer);
+        return;
+    }
+    // Most triangles of a fine mesh: one column of sixteen, and edge functions that fit 32 bits all over the tile
+    // (steps below 2^16, at most 2^9 of them). Asking more of them would cost more than testing their rows.
+    const BoxEdge edge[3] = {box_edge(t, 0, tile, column, box.r0), box_edge(t, 1, tile, column, box.r0),
+                             box_edge(t, 2, tile, column, box.r0)};
+    walk_edges<I32, std::int32_t>(t, tile, edge, 0, column, box.r0, box.r1, lane_index(),
+                                  depth_row(t, tile, column), consumer);
+}
+
+/// Calls fn(record) for each record of a list, fetching some ahead: lists jump through memory.
+template <class Fn>
+OBSCURA_INLINE void for_each_listed(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
+                                    Fn&& fn) {
+    constexpr std::size_t ahead = 8;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i + ahead < count) __builtin_prefetch(&records[list[i + ahead]]);
+        fn(records[list[i]]);
     }
 }
 
