@@ -53,6 +53,8 @@ void copy_streaming(void* to, const void* from, std::size_t bytes) noexcept {
     std::memcpy(target + i, source + i, bytes - i);
 }
 
-void finish_streaming() noexcept { _mm_sfence(); }
+void finish_streaming() noexcept {
+    _mm_sfence();
+}
 
 }  // namespace obscura

@@ -53,9 +53,9 @@ class Buffer {
     std::size_t size_ = 0, capacity_ = 0;
 };
 
-/// Copies `bytes` to memory that will not be read soon, past the caches: half the traffic of an ordinary copy,
-/// which reads each line before it overwrites it. Falls back to an ordinary copy where `to` is not aligned to
-/// 16 bytes. Call finish_streaming() before another thread may read.
+/// Copies `bytes` to memory that will not be read soon, past the caches: half the traffic of an ordinary
+/// copy, which reads each line before it overwrites it. Falls back to an ordinary copy where `to` is not
+/// aligned to 16 bytes. Call finish_streaming() before another thread may read.
 void copy_streaming(void* to, const void* from, std::size_t bytes) noexcept;
 void finish_streaming() noexcept;
 

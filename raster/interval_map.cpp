@@ -45,7 +45,7 @@ void IntervalTiler::decide_rest(const TileRect& tile, Receivers receivers, Depth
         if (out[texel].entry != undecided_entry) continue;
         crossings.clear();
         for (int l = 0; l < layers_in_place; ++l) {
-            const LayerKey key = keys_[static_cast<std::size_t>(l * layer_tile_texels + texel)];
+            const LayerKey key = keys_[static_cast<std::size_t>(layer_place(texel, l))];
             crossings.push_back({layer_depth(key), layer_crossing(key), 0});
         }
         const SpilledLayer* s = std::lower_bound(

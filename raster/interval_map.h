@@ -16,8 +16,8 @@ struct IntervalParams {
     bool only_casters = true;
 };
 
-/// Interval of every texel of `tile` (at most 32 x 32, width a multiple of 16), row by row into `out`, from
-/// the records in `list`. `scratch` holds one thread's layers.
+/// Interval of every texel of `tile` (at most layer_tile_side square, width a multiple of 16), row by row
+/// into `out`, from the records in `list`. `scratch` holds one thread's layers.
 class IntervalTiler {
   public:
     IntervalTiler();

@@ -53,12 +53,12 @@ struct Insertion {
     OBSCURA_INLINE void insert(std::int32_t at, I32 key) {
         std::int32_t& filled = stack.filled[at / lanes];
         I32 ids = id;
-        LayerKey* place = stack.keys + at;
-        std::int32_t* id_place = with_triangles ? stack.triangles + at : nullptr;
+        LayerKey* place = stack.keys + layer_place(at, 0);
+        std::int32_t* id_place = with_triangles ? stack.triangles + layer_place(at, 0) : nullptr;
         for (std::int32_t l = 0; l < filled; ++l) {
             sink(place, id_place, key, ids);
-            place += layer_tile_texels;
-            if constexpr (with_triangles) id_place += layer_tile_texels;
+            place += lanes;
+            if constexpr (with_triangles) id_place += lanes;
         }
         if (all(equal(key, splat(no_layer)))) return;
         if (filled < layers_in_place) {
@@ -169,11 +169,11 @@ void interval_tile(const LayerStack& stack, const TileRect& tile, bool static_re
         Counter counter;
         counter.static_receivers = static_receivers;
         for (std::int32_t l = 0; l < filled && any(counter.active); ++l) {
-            counter.step(load(stack.keys + l * layer_tile_texels + at));
+            counter.step(load(stack.keys + layer_place(at, l)));
         }
         Mask full = ~equal(splat(std::int32_t{0}), splat(std::int32_t{0}));
         if (filled == layers_in_place) {
-            full = ~equal(load(stack.keys + (layers_in_place - 1) * layer_tile_texels + at), splat(no_layer));
+            full = ~equal(load(stack.keys + layer_place(at, layers_in_place - 1)), splat(no_layer));
         }
         counter.finish(full);
         store_interleaved(&out[at].entry, counter.result_entry, counter.result_exit);

@@ -15,11 +15,11 @@ void insert(LayerStack& stack, std::int32_t texel, LayerKey key, std::uint32_t t
     // A row of sixteen gets a new layer of empty places when one of its texels needs it.
     std::int32_t& filled = stack.filled[texel / 16];
     for (int l = 0; l < filled; ++l) {
-        LayerKey& place = stack.keys[l * layer_tile_texels + texel];
+        LayerKey& place = stack.keys[layer_place(texel, l)];
         if (stack.triangles == nullptr) {
             if (key < place) std::swap(key, place);
         } else {
-            std::int32_t& id = stack.triangles[l * layer_tile_texels + texel];
+            std::int32_t& id = stack.triangles[layer_place(texel, l)];
             if (std::pair(key, triangle) < std::pair(place, static_cast<std::uint32_t>(id))) {
                 std::swap(key, place);
                 triangle = static_cast<std::uint32_t>(std::exchange(id, static_cast<std::int32_t>(triangle)));
@@ -34,11 +34,11 @@ void insert(LayerStack& stack, std::int32_t texel, LayerKey key, std::uint32_t t
         return;
     }
     const std::int32_t row = texel / 16 * 16;
-    std::fill_n(stack.keys + filled * layer_tile_texels + row, 16, no_layer);
-    stack.keys[filled * layer_tile_texels + texel] = key;
+    std::fill_n(stack.keys + layer_place(row, filled), 16, no_layer);
+    stack.keys[layer_place(texel, filled)] = key;
     if (stack.triangles != nullptr) {
-        std::fill_n(stack.triangles + filled * layer_tile_texels + row, 16, 0);
-        stack.triangles[filled * layer_tile_texels + texel] = static_cast<std::int32_t>(triangle);
+        std::fill_n(stack.triangles + layer_place(row, filled), 16, 0);
+        stack.triangles[layer_place(texel, filled)] = static_cast<std::int32_t>(triangle);
     }
     ++filled;
 }
@@ -74,7 +74,7 @@ void interval_tile(const LayerStack& stack, const TileRect& tile, bool static_re
         LayerCrossing crossings[layers_in_place];
         std::size_t n = 0;
         while (static_cast<std::int32_t>(n) < stack.filled[i / 16]) {
-            const LayerKey key = stack.keys[n * layer_tile_texels + static_cast<std::size_t>(i)];
+            const LayerKey key = stack.keys[layer_place(i, static_cast<std::int32_t>(n))];
             if (key == no_layer) break;
             crossings[n++] = {layer_depth(key), layer_crossing(key), 0};
         }

@@ -14,7 +14,7 @@
 namespace obscura {
 
 constexpr int layers_in_place = 8;
-constexpr int layer_tile_side = 32;
+constexpr int layer_tile_side = 64;
 constexpr int layer_tile_texels = layer_tile_side * layer_tile_side;
 
 /// Depth and kind of a crossing in one integer of the same order: bits of the depth (in [0, 1], below 2^30)
@@ -43,8 +43,14 @@ struct SpilledLayer {
     std::uint32_t triangle;
 };
 
-/// Working memory of one tile. Layer l of texel i is keys[l * layer_tile_texels + i]; rows of sixteen texels
-/// have filled[i / 16] layers, with no_layer where a texel has fewer.
+/// Where layer l of texel i lies in LayerStack::keys: the layers of sixteen texels stand together, so that a
+/// walk down the layers stays within a few neighbouring cache lines.
+constexpr std::int32_t layer_place(std::int32_t texel, std::int32_t layer) {
+    return (texel / 16 * layers_in_place + layer) * 16 + texel % 16;
+}
+
+/// Working memory of one tile. Rows of sixteen texels have filled[i / 16] layers, with no_layer where a texel
+/// has fewer.
 struct LayerStack {
     LayerKey* keys = nullptr;
     std::int32_t* triangles = nullptr;  ///< same places as keys; only where asked for

@@ -24,11 +24,10 @@ TileLayers collect(const LayerStack& stack, const TileRect& tile) {
     for (std::int32_t i = 0; i < tile.width * tile.height; ++i) {
         tile_layers.first.push_back(tile_layers.crossings.size());
         for (int l = 0; l < stack.filled[i / 16]; ++l) {
-            const LayerKey key = stack.keys[l * layer_tile_texels + i];
+            const LayerKey key = stack.keys[layer_place(i, l)];
             if (key == no_layer) break;
-            tile_layers.crossings.push_back(
-                {layer_depth(key), layer_crossing(key),
-                 static_cast<std::uint32_t>(stack.triangles[l * layer_tile_texels + i])});
+            tile_layers.crossings.push_back({layer_depth(key), layer_crossing(key),
+                                             static_cast<std::uint32_t>(stack.triangles[layer_place(i, l)])});
         }
         const auto in_place = static_cast<std::ptrdiff_t>(tile_layers.crossings.size());
         for (; next_spilled != spilled.end() && next_spilled->texel == i; ++next_spilled) {

@@ -61,7 +61,8 @@ bool transform_all(const Mesh& mesh, const View& view, const Exec& exec, Buffer<
     parallel_blocks(out.size(), block_vertices, exec, [&](std::size_t begin, std::size_t end) {
         OBSCURA_DISPATCH(exec.isa, transform_vertices, xyz, begin, end, map, out.data());
         int any = 0;
-        for (std::size_t i = begin; i < end; ++i) any |= out[i].clip;
+        for (std::size_t i = begin; i < end; ++i)
+            any |= out[i].clip;
         clipped[begin / block_vertices] = any;
     });
     return std::any_of(clipped.begin(), clipped.end(), [](int clip) { return clip != 0; });

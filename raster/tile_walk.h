@@ -31,9 +31,13 @@ struct SampleBox {
 };
 
 OBSCURA_INLINE SampleBox sample_box(const TriangleRecord& t, const TileRect& tile) {
-    const std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]), x_high = most(most(t.x[0], t.x[1]), t.x[2]);
-    const std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]), y_high = most(most(t.y[0], t.y[1]), t.y[2]);
-    const auto first = [](std::int32_t v, std::int32_t sample) { return (v - sample + 255) >> subtexel_bits; };
+    const std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]),
+                       x_high = most(most(t.x[0], t.x[1]), t.x[2]);
+    const std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]),
+                       y_high = most(most(t.y[0], t.y[1]), t.y[2]);
+    const auto first = [](std::int32_t v, std::int32_t sample) {
+        return (v - sample + 255) >> subtexel_bits;
+    };
     const auto last = [](std::int32_t v, std::int32_t sample) { return (v - sample) >> subtexel_bits; };
     return {most(first(x_low, tile.sample_x) - tile.x0, 0),
             least(last(x_high, tile.sample_x) - tile.x0, tile.width - 1),
@@ -64,7 +68,8 @@ OBSCURA_INLINE BoxEdge box_edge(const TriangleRecord& t, int k, const TileRect& 
 struct EdgeRange {
     std::int64_t low, high;
 };
-OBSCURA_INLINE EdgeRange edge_range(std::int64_t first, const BoxEdge& f, std::int32_t columns, std::int32_t rows) {
+OBSCURA_INLINE EdgeRange edge_range(std::int64_t first, const BoxEdge& f, std::int32_t columns,
+                                    std::int32_t rows) {
     const std::int64_t dx = f.A * (columns - 1), dy = f.B * (rows - 1);
     return {first + (dx < 0 ? dx : 0) + (dy < 0 ? dy : 0), first + (dx > 0 ? dx : 0) + (dy > 0 ? dy : 0)};
 }
@@ -164,9 +169,11 @@ OBSCURA_INLINE void walk_box(const TriangleRecord& t, const TileRect& tile, cons
         if (covered) {
             walk_covered(t, tile, c, box.r0, box.r1, depth, consumer);
         } else if (!wide) {
-            walk_edges<I32, std::int32_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index(), depth, consumer);
+            walk_edges<I32, std::int32_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index(), depth,
+                                          consumer);
         } else {
-            walk_edges<I64, std::int64_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index_64(), depth, consumer);
+            walk_edges<I64, std::int64_t>(t, tile, edge, c - c0, c, box.r0, box.r1, lane_index_64(), depth,
+                                          consumer);
         }
     }
 }
@@ -183,8 +190,9 @@ OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile,
         walk_box(t, tile, box, consumer);
         return;
     }
-    // Most triangles of a fine mesh: one column of sixteen, and edge functions that fit 32 bits all over the tile
-    // (steps below 2^16, at most 2^9 of them). Asking more of them would cost more than testing their rows.
+    // Most triangles of a fine mesh: one column of sixteen, and edge functions that fit 32 bits all over the
+    // tile (steps below 2^16, at most 2^9 of them). Asking more of them would cost more than testing their
+    // rows.
     const BoxEdge edge[3] = {box_edge(t, 0, tile, column, box.r0), box_edge(t, 1, tile, column, box.r0),
                              box_edge(t, 2, tile, column, box.r0)};
     walk_edges<I32, std::int32_t>(t, tile, edge, 0, column, box.r0, box.r1, lane_index(),
@@ -193,8 +201,8 @@ OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile,
 
 /// Calls fn(record) for each record of a list, fetching some ahead: lists jump through memory.
 template <class Fn>
-OBSCURA_INLINE void for_each_listed(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
-                                    Fn&& fn) {
+OBSCURA_INLINE void for_each_listed(const TriangleRecord* records, const std::uint32_t* list,
+                                    std::size_t count, Fn&& fn) {
     constexpr std::size_t ahead = 8;
     for (std::size_t i = 0; i < count; ++i) {
         if (i + ahead < count) __builtin_prefetch(&records[list[i + ahead]]);
