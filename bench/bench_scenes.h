@@ -20,9 +20,10 @@ struct BenchScene {
     std::string name;
     Scene scene;
     LightView light;
+    double topology_ms = 0;  ///< time analyse_topology() took, once per load, as a BVH build is
 };
 
-/// Puts `mesh` under the bench's light and before its camera.
+/// Puts `mesh` under the bench's light and before its camera, and analyses its topology.
 BenchScene stage_scene(std::string name, Mesh mesh, const BenchSize& size);
 
 /// Distance from the camera to the farthest corner of the scene's bounding box, metres.

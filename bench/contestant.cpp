@@ -14,6 +14,10 @@ const char* workload_name(Workload workload) {
     return "";
 }
 
+const char* workload_file_name(Workload workload) {
+    return workload == Workload::dual_depth ? "dual_depth" : workload_name(workload);
+}
+
 std::size_t result_size(Workload workload, const BenchScene& scene) {
     const auto pixels = [](int w, int h) {
         return static_cast<std::size_t>(w) * static_cast<std::size_t>(h);

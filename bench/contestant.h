@@ -19,6 +19,8 @@ enum class Workload { depth, dual_depth, frame };
 
 /// "depth", "dual depth", "frame".
 const char* workload_name(Workload workload);
+/// The same for file names: "depth", "dual_depth", "frame".
+const char* workload_file_name(Workload workload);
 /// Number of floats in a result.
 std::size_t result_size(Workload workload, const BenchScene& scene);
 

@@ -1,6 +1,7 @@
 // Who takes part. A new contestant is one line here.
 
 #include "bench/memory_limit.h"
+#include "bench/our_rasterizer.h"
 #include "bench/raster_bench.h"
 #ifdef OBSCURA_HAS_EMBREE
 #include "bench/peer_embree.h"
@@ -12,7 +13,7 @@
 namespace obscura {
 
 std::vector<Contestant> all_contestants() {
-    std::vector<Contestant> all;
+    std::vector<Contestant> all = {our_contestant()};
 #ifdef OBSCURA_HAS_OSMESA
     all.push_back(llvmpipe_contestant());
 #else

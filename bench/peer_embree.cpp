@@ -255,7 +255,7 @@ void trace_frame(EmbreeState& state) {
         std::memcpy(phong.dir_z, p.rays.ray.dir_z, sizeof phong.dir_z);
         for (int i = 0; i < 16; ++i) {
             const bool hit = p.valid[i] != 0 && p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
-            phong.triangle[i] = hit ? p.rays.hit.primID[i] : no_triangle;
+            phong.triangle[i] = hit ? p.rays.hit.primID[i] : no_hit;
             phong.t[i] = hit ? p.rays.ray.tfar[i] : 0.0f;
             phong.u[i] = hit ? p.rays.hit.u[i] : 0.0f;
             phong.v[i] = hit ? p.rays.hit.v[i] : 0.0f;

@@ -20,13 +20,13 @@ struct PhongScene {
     float offset_m = 0;  ///< shadow rays start this far off the surface along the normal
 };
 
-inline constexpr std::uint32_t no_triangle = 0xffffffffu;
+inline constexpr std::uint32_t no_hit = 0xffffffffu;
 
 /// Sixteen pixels on their way through shading, one array per quantity.
 struct alignas(64) PhongPacket {
     float dir_x[16], dir_y[16], dir_z[16];  ///< primary ray, any length
     float t[16], u[16], v[16];              ///< hit
-    std::uint32_t triangle[16];             ///< no_triangle = background
+    std::uint32_t triangle[16];             ///< no_hit = background
     float normal_x[16], normal_y[16], normal_z[16];
     float shadow_x[16], shadow_y[16], shadow_z[16];  ///< start of the shadow ray
     float n_dot_l[16];

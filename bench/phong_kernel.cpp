@@ -11,7 +11,7 @@ float positive(float x) {
 
 void surface(const PhongScene& scene, PhongPacket& p) noexcept {
     for (int i = 0; i < 16; ++i) {
-        const bool hit = p.triangle[i] != no_triangle;
+        const bool hit = p.triangle[i] != no_hit;
         const float* n = scene.normals + (hit ? p.triangle[i] : 0u) * std::uint64_t{9};
         const float u = p.u[i], v = p.v[i], w = 1.0f - u - v;
         const float x = w * n[0] + u * n[3] + v * n[6];
@@ -25,7 +25,7 @@ void surface(const PhongScene& scene, PhongPacket& p) noexcept {
     for (int i = 0; i < 16; ++i) {
         const float dot = p.normal_x[i] * scene.to_light[0] + p.normal_y[i] * scene.to_light[1] +
                           p.normal_z[i] * scene.to_light[2];
-        p.n_dot_l[i] = p.triangle[i] != no_triangle ? positive(dot) : 0.0f;
+        p.n_dot_l[i] = p.triangle[i] != no_hit ? positive(dot) : 0.0f;
         p.shadow_x[i] = scene.eye[0] + p.t[i] * p.dir_x[i] + scene.offset_m * p.normal_x[i];
         p.shadow_y[i] = scene.eye[1] + p.t[i] * p.dir_y[i] + scene.offset_m * p.normal_y[i];
         p.shadow_z[i] = scene.eye[2] + p.t[i] * p.dir_z[i] + scene.offset_m * p.normal_z[i];
@@ -50,7 +50,7 @@ void shade(const PhongScene& scene, PhongPacket& p) noexcept {
         const bool facing = p.n_dot_l[i] > 0.0f;
         const float diffuse = p.lit[i] * p.n_dot_l[i];
         const float glint = facing ? p.lit[i] * scene.specular * shine : 0.0f;
-        const float seen = p.triangle[i] != no_triangle ? 1.0f : 0.0f;
+        const float seen = p.triangle[i] != no_hit ? 1.0f : 0.0f;
         p.r[i] =
             seen * (scene.albedo[0] * (scene.ambient[0] + scene.sun[0] * diffuse) + scene.sun[0] * glint);
         p.g[i] =

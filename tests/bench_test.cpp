@@ -1,13 +1,17 @@
 // The bench's peers against a brute-force oracle on a scene small enough for one.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "bench/charts.h"
 #include "bench/raster_bench.h"
 #include "scenes/build.h"
 #include "scenes/shapes.h"
@@ -15,18 +19,18 @@
 namespace obscura {
 namespace {
 
-/// Four boxes that stand on a slab or float above it.
-Mesh boxes_on_slab() {
+/// Four boxes that float above a slab: disjoint convex solids, so every exit is a second layer.
+Mesh boxes_over_slab() {
     Mesh mesh = box({-10, -1, -10}, {10, 0, 10});
-    add_part(mesh, box({-6, 0, -5}, {-2, 3, -1}), Affine{});
-    add_part(mesh, box({1, 0, 2}, {3, 6, 4}), Affine{});
+    add_part(mesh, box({-6, 0.5, -5}, {-2, 3, -1}), Affine{});
+    add_part(mesh, box({1, 0.25, 2}, {3, 6, 4}), Affine{});
     add_part(mesh, box({3, 2, -7}, {7, 3, -3}), Affine{});
-    add_part(mesh, box({-7, 0, 4}, {-5, 4, 8}), Affine{});
+    add_part(mesh, box({-7, 0.5, 4}, {-5, 4, 8}), Affine{});
     return mesh;
 }
 
 BenchScene small_scene() {
-    return stage_scene("boxes", boxes_on_slab(), BenchSize{128, 160, 90});
+    return stage_scene("boxes", boxes_over_slab(), BenchSize{128, 160, 90});
 }
 
 /// Sorted depths of every triangle over the centre of texel (x, y), by barycentric coordinates in double.
@@ -141,6 +145,81 @@ TEST(RasterBench, PeersPaintTheSameFrame) {
         EXPECT_NEAR(row.agreement->covered, frames[0].agreement->covered, 0.005) << title(row);
         EXPECT_NEAR(row.agreement->mean_first, frames[0].agreement->mean_first, 0.01) << title(row);
     }
+}
+
+/// Splits one line of CSV.
+std::vector<std::string> columns_of(const std::string& line) {
+    std::vector<std::string> columns(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"') quoted = !quoted;
+        if (c == ',' && !quoted) {
+            columns.emplace_back();
+        } else {
+            columns.back() += c;
+        }
+    }
+    return columns;
+}
+
+TEST(RasterBench, QuickRunWritesTablesAndCharts) {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "workers are forked, which the thread sanitizer does not follow";
+#endif
+    const std::filesystem::path out =
+        std::filesystem::temp_directory_path() / ("obscura_bench_test_" + std::to_string(getpid()));
+    BenchOptions options;
+    options.out = out;
+    options.quick = true;
+    options.runs = 2;
+    std::string said;
+    options.say = [&said](const std::string& line) { said += line + '\n'; };
+    EXPECT_EQ(bench_raster(options), 0);
+
+    std::ifstream csv(out / "raster.csv");
+    std::string line;
+    std::getline(csv, line);
+    const std::vector<std::string> names = columns_of(line);
+    for (const char* name :
+         {"scene", "triangles", "workload", "contestant", "method", "threads", "median_ms", "min_ms",
+          "max_ms", "ratio_to_obscura", "prepare_ms", "covered", "version", "problem"}) {
+        EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+    }
+    std::set<std::string> contestants;
+    while (std::getline(csv, line)) {
+        const std::vector<std::string> values = columns_of(line);
+        ASSERT_EQ(values.size(), names.size()) << line;
+        contestants.insert(values[5]);
+        if (!values.back().empty()) continue;
+        EXPECT_GT(std::stod(values[10]), 0.0) << line;
+        EXPECT_LE(std::stod(values[11]), std::stod(values[10])) << line;
+        EXPECT_GE(std::stod(values[12]), std::stod(values[10])) << line;
+    }
+    EXPECT_EQ(contestants, (std::set<std::string>{"Obscura", "llvmpipe", "Embree", "memory limit"}));
+
+    const bool charted = said.find("gnuplot is not installed") == std::string::npos;
+    EXPECT_EQ(std::filesystem::exists(out / "raster_depth.svg"), charted);
+    EXPECT_TRUE(std::filesystem::exists(out / "raster.md"));
+    std::filesystem::remove_all(out);
+}
+
+TEST(RasterBench, ChartNamesEveryMethodAndItsRatio) {
+    BenchRow ours;
+    ours.scene = "town";
+    ours.contestant = "Obscura";
+    ours.method = "exact";
+    ours.runs_ms = {10, 11, 12};
+    BenchRow peer = ours;
+    peer.contestant = "Embree";
+    peer.method = "packets";
+    peer.runs_ms = {33, 30, 40};
+    BenchOptions options;
+    options.threads = {1};
+    const std::string script = chart_script({ours, peer}, Workload::depth, options);
+    EXPECT_NE(script.find("Obscura: exact"), std::string::npos);
+    EXPECT_NE(script.find("Embree: packets"), std::string::npos);
+    EXPECT_NE(script.find("'3.0x'"), std::string::npos);
+    EXPECT_EQ(chart_script({ours, peer}, Workload::frame, options), "");
 }
 
 }  // namespace

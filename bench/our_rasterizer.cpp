@@ -1,0 +1,70 @@
+#include "bench/our_rasterizer.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <memory>
+
+#include "core/buffer.h"
+#include "raster/depth_map.h"
+#include "raster/interval_map.h"
+
+namespace obscura {
+namespace {
+
+struct OurState {
+    const BenchScene* bench = nullptr;
+    Exec exec;
+    RasterScratch scratch;
+    Raster<float> depth;
+    Raster<DepthInterval> intervals;
+};
+
+void draw_depth(OurState& s, bool drop_exits) {
+    SetupParams params;
+    params.drop_exits = drop_exits;
+    depth_map(s.bench->scene.mesh, s.bench->light, params, s.exec, s.scratch, s.depth.view());
+}
+
+void draw_intervals(OurState& s) {
+    interval_map(s.bench->scene.mesh, s.bench->light, {}, s.exec, s.scratch, s.intervals.view());
+}
+
+void deliver_intervals(const OurState& s, float* result) {
+    const std::size_t texels = s.intervals.pixels.size();
+    for (std::size_t i = 0; i < texels; ++i) {
+        result[i] = s.intervals.pixels[i].entry;
+        result[texels + i] = s.intervals.pixels[i].exit;
+    }
+}
+
+Session open_ours(const BenchScene& bench, const Exec& exec) {
+    const auto state = std::make_shared<OurState>();
+    OurState& s = *state;
+    s.bench = &bench;
+    s.exec = exec;
+    s.depth.reset(bench.light.width, bench.light.height);
+    s.intervals.reset(bench.light.width, bench.light.height);
+    const auto deliver_depth = [&s](float* r) {
+        std::memcpy(r, s.depth.pixels.data(), s.depth.pixels.size() * sizeof(float));
+    };
+    Session session;
+    session.version = fmt::format("this build ({})", isa_name(exec.isa));
+    session.prepare_ms = bench.topology_ms;
+    session.jobs = {
+        {Workload::depth, "all faces", true, [&s] { draw_depth(s, false); }, deliver_depth},
+        {Workload::depth, "back faces of solids dropped", true, [&s] { draw_depth(s, true); }, deliver_depth},
+        {Workload::dual_depth, "entry and exit, full counter", true, [&s] { draw_intervals(s); },
+         [&s](float* r) { deliver_intervals(s, r); }},
+    };
+    session.state = state;
+    return session;
+}
+
+}  // namespace
+
+Contestant our_contestant() {
+    return {"Obscura", "", open_ours};
+}
+
+}  // namespace obscura
