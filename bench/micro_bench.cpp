@@ -91,7 +91,7 @@ void DepthMap(benchmark::State& state, const std::string& name) {
     RasterScratch scratch;
     Raster<float> out(4096, 4096);
     SetupParams params;
-    params.drop_exits = true;
+    params.culling = Culling::back_faces;
     for (auto _ : state)
         depth_map(s.mesh, s.view, params, s.exec, scratch, out.view());
 }

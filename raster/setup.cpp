@@ -155,7 +155,8 @@ class BlockSetup {
         const bool front = area < 0;
         const bool closed = mesh_.components[mesh_.component[t]].closed;
         const Crossing crossing = !closed ? Crossing::open : (front ? Crossing::entry : Crossing::exit);
-        if (params_.drop_exits && crossing == Crossing::exit) return;
+        if (params_.culling == Culling::exits && crossing == Crossing::exit) return;
+        if (params_.culling == Culling::back_faces && !front) return;
         if (front) std::swap(q, r);
 
         const DepthPlane& plane = setup_.planes[mesh_.face[t]];

@@ -13,10 +13,15 @@
 
 namespace obscura {
 
+/// Faces that are left out: none; those where a ray leaves a solid (back faces of closed components: the
+/// nearest surface is never one of them, unless a solid is cut open); or all that face away, of open
+/// components too.
+enum class Culling { none, exits, back_faces };
+
 /// Which triangles become records.
 struct SetupParams {
-    bool only_casters = false;        ///< leave out objects that cast no shadow
-    bool drop_exits = false;          ///< leave out back faces of closed components
+    bool only_casters = false;  ///< leave out objects that cast no shadow
+    Culling culling = Culling::none;
     bool centre_samples_only = true;  ///< leave out what lies between texel centres (single-sample maps)
 };
 
