@@ -97,7 +97,7 @@ Mesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_
         const std::uint32_t object = objects.number(face.object);
         for (const auto& cut : triangulate_polygon(outline)) {
             Triangle triangle;
-            for (int k = 0; k < 3; ++k)
+            for (std::size_t k = 0; k < 3; ++k)
                 triangle.v[k] = vertices.find_or_add(corner[cut[k]]);
             mesh.triangles.push_back(triangle);
             mesh.material.push_back(face.material >= 0

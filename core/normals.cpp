@@ -33,7 +33,7 @@ Facet facet_of(const Mesh& mesh, const Triangle& t) {
     const std::array<Vec3d, 3> p = {to_double(a), to_double(b), to_double(c)};
     Facet facet;
     facet.normal = normalize(cross(p[1] - p[0], p[2] - p[0]));
-    for (int k = 0; k < 3; ++k)
+    for (std::size_t k = 0; k < 3; ++k)
         facet.angle[k] = angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
     return facet;
 }

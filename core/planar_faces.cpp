@@ -73,7 +73,7 @@ std::vector<std::uint32_t> seeds_by_area(const Mesh& mesh) {
     std::sort(seeds.begin(), seeds.end(), [&](std::uint32_t a, std::uint32_t b) {
         if (area[a] != area[b]) return area[a] > area[b];
         const auto ca = canonical_corners(mesh, a), cb = canonical_corners(mesh, b);
-        for (int k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
             if (ca[k] != cb[k]) return order(ca[k]) < order(cb[k]);
         }
         return a < b;

@@ -36,7 +36,9 @@ void expect_tiled(const Outline& outline, double tolerance = 1e-5) {
     const double whole = shoelace(outline);
     double sum = 0;
     for (const auto& t : triangles) {
-        const auto p = [&](int k) { return Vec2d{to_double(corners[t[k]]).x, to_double(corners[t[k]]).y}; };
+        const auto p = [&](std::size_t k) {
+            return Vec2d{to_double(corners[t[k]]).x, to_double(corners[t[k]]).y};
+        };
         const double area = shoelace({p(0), p(1), p(2)});
         EXPECT_GT(area * whole, 0) << "flat or turned triangle";
         sum += area;
