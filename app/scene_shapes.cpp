@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/scene_generators.h"
 #include "scenes/shapes.h"
 
 namespace obscura {
@@ -112,8 +113,13 @@ ShapeSpec torus_shape() {
 }  // namespace
 
 const std::vector<ShapeSpec>& shapes() {
-    static const std::vector<ShapeSpec> all = {box_shape(), plane_shape(), sphere_shape(), cylinder_shape(),
-                                               torus_shape()};
+    static const std::vector<ShapeSpec> all = [] {
+        std::vector<ShapeSpec> list{box_shape(), plane_shape(), sphere_shape(), cylinder_shape(),
+                                    torus_shape()};
+        for (ShapeSpec& shape : generator_shapes())
+            list.push_back(std::move(shape));
+        return list;
+    }();
     return all;
 }
 

@@ -147,12 +147,11 @@ void add_roundel(Mesh& mesh, const ArcadeParams& p, double x, double y, double r
 }  // namespace
 
 GeneratedModel arcade(const ArcadeParams& p) {
-    CHECK(p.bays >= 1 && p.smoothness >= 1 && p.bay_m > 3.6 * p.column_radius_m);
+    CHECK(p.bays >= 1 && p.smoothness >= 1 && problem(p).empty(), problem(p));
     GeneratedModel model;
     model.materials = {material_slot("wall", 222, 196, 158, 0.9f),
                        material_slot("trim", 232, 214, 184, 0.75f)};
     const Order o = order_of(p);
-    CHECK(o.shaft > o.base + p.column_radius_m);
     const double pier = 1.4 * p.column_radius_m;  // half the impost's width: what the arches leave free
     const double radius = 0.5 * p.bay_m - pier, half_length = 0.5 * p.bays * p.bay_m + pier;
     const double top = o.springing + radius + p.above_m;

@@ -40,8 +40,7 @@ Mesh post(const FenceParams& p) {
 }  // namespace
 
 GeneratedModel fence(const FenceParams& p) {
-    CHECK(p.length_m > 0.2 && p.height_m > 0.6 && p.spacing_m > 4 * p.bar_radius_m &&
-          p.bar_radius_m > 0.001 && p.post_every_m > p.spacing_m);
+    CHECK(p.length_m > 0.2 && p.height_m > 0.6 && p.bar_radius_m > 0.001 && problem(p).empty(), problem(p));
     GeneratedModel model;
     model.materials = {material_slot("iron", 46, 48, 50, 0.45f)};
     model.materials[0].metallic = 0.6f;

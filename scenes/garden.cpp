@@ -103,7 +103,7 @@ double lamp_light_height(const LampPostParams& p) {
 }
 
 GeneratedModel lamp_post(const LampPostParams& p) {
-    CHECK(p.lantern_m > 0.15 && p.height_m > 1.6 + 2.2 * p.lantern_m);
+    CHECK(p.lantern_m > 0.15 && problem(p).empty(), problem(p));
     GeneratedModel model;
     model.materials = {material_slot("iron", 40, 46, 44, 0.4f), material_slot("bulb", 255, 244, 224, 0.3f)};
     model.materials[0].metallic = 0.5f;
@@ -199,7 +199,7 @@ GeneratedModel bench(const BenchParams& p) {
 }
 
 GeneratedModel fountain(const FountainParams& p) {
-    CHECK(p.radius_m > 0.6 && p.height_m > 1.0 && p.segments >= 8);
+    CHECK(p.radius_m > 0.6 && p.height_m > 1.55 && p.segments >= 8);
     GeneratedModel model;
     model.materials = {material_slot("stone", 216, 204, 184, 0.75f),
                        material_slot("water", 38, 66, 66, 0.06f)};

@@ -2,7 +2,11 @@
 // Parts of a courtyard and of a house, grown from a few numbers. Each function is deterministic in its
 // parameters: the same struct gives the same bits everywhere. What it makes stands on y = 0 about the origin,
 // faces +Z unless said otherwise, consists of closed solids (see scenes/shapes.h), which may touch and pierce
-// one another, and names its material slots. scenes/registry.h lists them for scene files, with the ranges.
+// one another, and names its material slots. A scene file names them as shapes
+// (app/scene_generators.cpp has the ranges of single parameters). problem() says what is wrong between
+// parameters, in words for the person who wrote them; "" = nothing.
+
+#include <string>
 
 #include "scenes/build.h"
 
@@ -19,6 +23,7 @@ struct ArcadeParams {
     int smoothness = 1;             ///< 1: 24 facets around a column; each step adds 12
 };
 GeneratedModel arcade(const ArcadeParams& params);
+std::string problem(const ArcadeParams& params);
 
 /// Straight flight that climbs towards -Z: solid steps, overhanging treads, a sloping parapet on either side.
 /// The lowest riser is at z = 0.
@@ -40,6 +45,7 @@ struct FenceParams {
     double post_every_m = 2.0;  ///< about; posts divide the length evenly
 };
 GeneratedModel fence(const FenceParams& params);
+std::string problem(const FenceParams& params);
 
 /// Broad-leaved tree. The branches compete for space (space colonisation); leaves are thin closed solids.
 struct TreeParams {
@@ -51,6 +57,7 @@ struct TreeParams {
     int seed = 1;
 };
 GeneratedModel tree(const TreeParams& params);
+std::string problem(const TreeParams& params);
 
 /// Street lamp with an open lantern: a cage of bars without glass, and a small bulb. A point light at
 /// (0, lamp_light_height(params), 0) with near_m >= 0.05 starts outside the bulb and shines out between the
@@ -60,6 +67,7 @@ struct LampPostParams {
     double lantern_m = 0.34;  ///< width of the lantern at its widest
 };
 GeneratedModel lamp_post(const LampPostParams& params);
+std::string problem(const LampPostParams& params);
 double lamp_light_height(const LampPostParams& params);
 
 /// Terracotta pot with earth and a clipped shrub.
@@ -97,6 +105,7 @@ struct PavementParams {
     int seed = 1;
 };
 GeneratedModel pavement(const PavementParams& params);
+std::string problem(const PavementParams& params);
 
 /// A slope of barrel tiles on a board. The eaves run along X at y = 0, z = 0; the slope climbs towards -Z.
 struct RoofTilesParams {
@@ -107,6 +116,7 @@ struct RoofTilesParams {
     int seed = 1;
 };
 GeneratedModel roof_tiles(const RoofTilesParams& params);
+std::string problem(const RoofTilesParams& params);
 
 /// Window frame with glazing bars and no glass, centred on x and z, its lower edge on y = 0.
 struct WindowParams {
@@ -117,6 +127,7 @@ struct WindowParams {
     int columns = 2, rows = 4;
 };
 GeneratedModel window_frame(const WindowParams& params);
+std::string problem(const WindowParams& params);
 
 /// A wall along X pierced by a row of equal openings that go right through it.
 struct PiercedWallParams {
@@ -126,6 +137,7 @@ struct PiercedWallParams {
     double sill_m = 0.75;  ///< lower edge of the openings
 };
 GeneratedModel pierced_wall(const PiercedWallParams& params);
+std::string problem(const PiercedWallParams& params);
 /// x of the middle of opening i, so that a frame can be set into it.
 double opening_x(const PiercedWallParams& params, int i);
 

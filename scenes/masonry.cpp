@@ -42,7 +42,7 @@ std::vector<double> cuts(double length, double piece, double play, Random& rando
 }  // namespace
 
 GeneratedModel pavement(const PavementParams& p) {
-    CHECK(p.width_m > p.stone_m && p.depth_m > p.stone_m && p.stone_m > 4 * p.joint_m && p.joint_m > 0);
+    CHECK(p.joint_m > 0 && problem(p).empty(), problem(p));
     GeneratedModel model;
     model.materials = {
         material_slot("joint", 96, 86, 74, 1.0f), material_slot("flag_light", 206, 190, 164, 0.8f),
@@ -64,8 +64,8 @@ GeneratedModel pavement(const PavementParams& p) {
 }
 
 GeneratedModel roof_tiles(const RoofTilesParams& p) {
-    CHECK(p.width_m > 2 * p.tile_m && p.slope_m > 0.4 && p.pitch_deg >= 0 && p.pitch_deg < 80 &&
-          p.tile_m > 0.05);
+    CHECK(p.slope_m > 0.4 && p.pitch_deg >= 0 && p.pitch_deg < 80 && p.tile_m > 0.05 && problem(p).empty(),
+          problem(p));
     GeneratedModel model;
     model.materials = {material_slot("board", 120, 92, 70, 0.9f), material_slot("tile", 190, 112, 78, 0.85f),
                        material_slot("tile_pale", 206, 138, 100, 0.85f),
@@ -108,8 +108,7 @@ GeneratedModel roof_tiles(const RoofTilesParams& p) {
 }
 
 GeneratedModel window_frame(const WindowParams& p) {
-    CHECK(p.columns >= 1 && p.rows >= 1 && p.width_m > 2.5 * p.frame_m && p.height_m > 2.5 * p.frame_m &&
-          p.depth_m > 0 && p.bar_m > 0);
+    CHECK(p.columns >= 1 && p.rows >= 1 && p.depth_m > 0 && p.bar_m > 0 && problem(p).empty(), problem(p));
     GeneratedModel model;
     model.materials = {material_slot("frame", 238, 234, 224, 0.5f)};
     const double w = p.width_m - 2 * p.frame_m, h = p.height_m - 2 * p.frame_m, d = 0.5 * p.depth_m;
@@ -135,8 +134,7 @@ GeneratedModel window_frame(const WindowParams& p) {
 }
 
 GeneratedModel pierced_wall(const PiercedWallParams& p) {
-    CHECK(p.openings >= 0 && p.width_m > p.openings * p.opening_width_m && p.sill_m > 0 &&
-          p.height_m > p.sill_m + p.opening_height_m);
+    CHECK(p.openings >= 0 && p.sill_m > 0 && problem(p).empty(), problem(p));
     GeneratedModel model;
     model.materials = {material_slot("wall", 236, 228, 212, 0.9f)};
     WindowGrid grid;

@@ -173,8 +173,8 @@ void add_leaves(Mesh& mesh, const TreeParams& p, const std::vector<Node>& nodes,
 }  // namespace
 
 GeneratedModel tree(const TreeParams& p) {
-    CHECK(p.height_m > p.trunk_m + 0.5 && p.trunk_m >= 0 && p.crown_radius_m > 0.2 && p.leaves >= 0 &&
-          p.leaf_m > 0.01);
+    CHECK(p.trunk_m >= 0 && p.crown_radius_m > 0.2 && p.leaves >= 0 && p.leaf_m > 0.01 && problem(p).empty(),
+          problem(p));
     GeneratedModel model;
     model.materials = {material_slot("bark", 98, 82, 66, 0.95f), material_slot("leaf", 88, 122, 48, 0.6f),
                        material_slot("young_leaf", 122, 148, 58, 0.6f)};
