@@ -20,9 +20,9 @@ struct OurState {
     Raster<DepthInterval> intervals;
 };
 
-void draw_depth(OurState& s, bool drop_exits) {
+void draw_depth(OurState& s, Culling culling) {
     SetupParams params;
-    params.drop_exits = drop_exits;
+    params.culling = culling;
     depth_map(s.bench->scene.mesh, s.bench->light, params, s.exec, s.scratch, s.depth.view());
 }
 
@@ -52,8 +52,9 @@ Session open_ours(const BenchScene& bench, const Exec& exec) {
     session.version = fmt::format("this build ({})", isa_name(exec.isa));
     session.prepare_ms = bench.topology_ms;
     session.jobs = {
-        {Workload::depth, "all faces", true, [&s] { draw_depth(s, false); }, deliver_depth},
-        {Workload::depth, "back faces of solids dropped", true, [&s] { draw_depth(s, true); }, deliver_depth},
+        {Workload::depth, "all faces", true, [&s] { draw_depth(s, Culling::none); }, deliver_depth},
+        {Workload::depth, "back faces dropped", true, [&s] { draw_depth(s, Culling::back_faces); },
+         deliver_depth},
         {Workload::dual_depth, "entry and exit, full counter", true, [&s] { draw_intervals(s); },
          [&s](float* r) { deliver_intervals(s, r); }},
     };
