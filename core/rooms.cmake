@@ -19,6 +19,7 @@ function(obscura_room name)
   target_include_directories(obscura_${name} PUBLIC ${window})
   list(TRANSFORM ARG_DEPS PREPEND obscura_)
   target_link_libraries(obscura_${name} PUBLIC obscura_flags ${ARG_DEPS} PRIVATE ${ARG_LIBS})
+  set_property(GLOBAL APPEND PROPERTY OBSCURA_ROOMS ${name})
 endfunction()
 
 set(OBSCURA_ISA_FLAGS_sse2 -msse2)

@@ -14,7 +14,8 @@ TEST(Vec, InverseTimesMatrixIsIdentity) {
     const Mat4 a{{{2, 1, 0, 3}, {-1, 4, 2, 0}, {0.5, 0, 3, 1}, {0, 1, 0.25, 2}}};
     const Mat4 identity = inverse(a) * a;
     for (int i = 0; i < 4; ++i) {
-        for (int j = 0; j < 4; ++j) EXPECT_NEAR(identity.m[i][j], i == j ? 1.0 : 0.0, 1e-14);
+        for (int j = 0; j < 4; ++j)
+            EXPECT_NEAR(identity.m[i][j], i == j ? 1.0 : 0.0, 1e-14);
     }
 }
 
@@ -35,7 +36,8 @@ TEST(Parallel, ExceptionOfAnItemReachesTheCaller) {
 }
 
 TEST(Isa, NamesRoundTrip) {
-    for (const Isa isa : supported_isas()) EXPECT_EQ(parse_isa(isa_name(isa)), isa);
+    for (const Isa isa : supported_isas())
+        EXPECT_EQ(parse_isa(isa_name(isa)), isa);
     EXPECT_FALSE(parse_isa("avx9"));
 }
 

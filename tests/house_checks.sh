@@ -1,0 +1,150 @@
+#!/bin/bash
+# What the architecture promises about the source itself. Each check prints its findings, one a line, and
+# nothing when all is well.
+#
+#   house_checks.sh CHECK SOURCE_DIR     exit 0 clean, 1 findings, 77 cannot be checked here
+#   house_checks.sh self-test            plants one violation of every rule in a small tree and sees it found
+set -u -o pipefail
+export LC_ALL=C
+
+rooms="core raster hierarchy filters optics stereo app lessons bench tests scenes fuzz"
+
+sources() {  # C++ files of the rooms in the current folder
+    local present=()
+    for room in $rooms; do [ -d "$room" ] && present+=("$room"); done
+    find "${present[@]}" -type f \( -name '*.h' -o -name '*.cpp' \) | sort
+}
+
+# grep over source lines without // comments: FILE:LINE:TEXT
+grep_code() {  # grep_code PATTERN FILES...
+    local pattern=$1
+    shift
+    [ $# -gt 0 ] || return 0
+    awk '{ line = $0; sub(/\/\/.*/, "", line); print FILENAME ":" FNR ":" line }' "$@" | grep -E "^[^:]*:[0-9]+:.*($pattern)"
+}
+
+# One file knows each library; everyone else asks it.
+check_doors() {
+    door() {  # door NAME INCLUDE ALLOWED_FILES
+        sources | grep -vE "^($3)$" | xargs -r grep -nE "^ *# *include *[<\"]($2)" | sed "s/$/    ($1 has another door)/"
+    }
+    door TBB '(one)?tbb/|oneapi/' 'core/parallel\.cpp'
+    door xsimd 'xsimd/' 'core/simd\.h'
+    door stb 'stb/|stb_' 'core/image_io\.cpp'
+    door toml++ 'toml\+\+/|toml\.hpp' 'app/scene_file[a-z_]*\.cpp'
+    door tinyobjloader 'tiny_obj' 'app/obj_file\.cpp'
+    door CLI11 'CLI/|CLI11' 'app/(main|cli[a-z_]*)\.(cpp|h)'
+    door GoogleTest 'g(test|mock)/' 'tests/.*'
+    door 'Google Benchmark' 'benchmark/' 'bench/.*'
+    door 'Embree, OSMesa' 'embree|GL/' 'bench/.*'
+    door intrinsics '[a-z]*intrin\.h' 'core/simd\.h|bench/.*'
+}
+
+# Rooms are entered by their name, not through the wall.
+check_includes() {
+    sources | xargs -r grep -nE '^ *# *include *"([^"]*\.\./|/)'
+    # Within a room, too, a header is named with its room; tests alone may name a neighbour plainly.
+    sources | grep -v '^tests/' | xargs -r grep -nE '^ *# *include *"[^/"]+"'
+}
+
+# libm's bits vary with the CPU: num has its own. Exact functions (sqrt, floor, fabs, fmod, ...) are fine.
+check_libm() {
+    local f='(sin|cos|tan|sincos|asin|acos|atan|atan2|sinh|cosh|tanh|asinh|acosh|atanh|exp|exp2|exp10|expm1|log|log2|log10|log1p|pow|cbrt|hypot|erf|erfc|tgamma|lgamma)'
+    local files
+    mapfile -t files < <(sources | grep -vE '^(tests|bench)/|^core/num\.(h|cpp)$')
+    [ ${#files[@]} -gt 0 ] || return 0
+    # std::f, ::f, ff (the float form); a plain f( too where nothing of ours can be meant.
+    grep_code "(std::|[^A-Za-z0-9_]::)${f}[fl]? *\(|(^|[^A-Za-z0-9_:.>])${f}[fl] *\(|[=(+*/,-] *${f} *\(" "${files[@]}"
+    grep -nE "^ *using (namespace std|std::$f);" "${files[@]}"
+}
+
+check_files() {
+    sources | while read -r file; do
+        lines=$(wc -l <"$file")
+        limit=400
+        [ "$file" = core/simd.h ] && limit=500  # the only door to xsimd cannot be cut in two
+        [ "$lines" -le "$limit" ] || echo "$file: $lines lines, more than $limit"
+        case $(basename "${file%.*}") in
+            utils | util | helpers | helper | common | misc) echo "$file: the name says nothing" ;;
+        esac
+    done
+    sources | xargs -r grep -nE '\b(TODO|FIXME|XXX|HACK)\b'
+    sources | grep '\.h$' | xargs -r grep -L '^#pragma once' | sed 's/$/: no #pragma once/'
+}
+
+check_format() {
+    local version
+    version=$(clang-format --version 2>/dev/null | grep -oE '[0-9]+\.' | head -1)
+    if [ "$version" != 14. ]; then
+        echo "SKIPPED: clang-format 14 is not installed" >&2
+        return 77
+    fi
+    sources | xargs -r clang-format --dry-run -Werror 2>&1 | grep -E 'error|warning'
+}
+
+run_check() {  # run_check NAME DIR
+    local findings status
+    findings=$(cd "$2" && "check_$1")
+    status=$?
+    [ "$status" -ne 77 ] || return 77
+    [ -n "$findings" ] || return 0
+    printf '%s\n' "$findings"
+    return 1
+}
+
+self_test() {
+    local work failures=0
+    work=$(mktemp -d)
+    plant() {  # plant CHECK FILE TEXT EXPECTED(clean|found)
+        rm -rf "$work/tree"
+        mkdir -p "$work/tree/$(dirname "$2")"
+        cp .clang-format "$work/tree" 2>/dev/null
+        printf '%b' "$3" >"$work/tree/$2"
+        run_check "$1" "$work/tree" >"$work/out" 2>/dev/null
+        local status=$?
+        [ "$status" -ne 77 ] || return 0
+        case $4:$status in
+            clean:0 | found:1) ;;
+            *)
+                printf 'FAILED: %s should be %s for %s: %s\n%s\n' "$1" "$4" "$2" "$3" "$(cat "$work/out")"
+                failures=$((failures + 1))
+                ;;
+        esac
+    }
+    plant doors raster/a.cpp '#include <tbb/parallel_for.h>\n' found
+    plant doors core/parallel.cpp '#include <tbb/parallel_for.h>\n' clean
+    plant doors filters/a.cpp '#include <xsimd/xsimd.hpp>\n' found
+    plant doors app/png.cpp '#include "stb_image.h"\n' found
+    plant doors app/render.cpp '#include <toml++/toml.h>\n' found
+    plant doors app/scene_file_parse.cpp '#include <toml++/toml.h>\n' clean
+    plant doors core/mesh.cpp '#include <tiny_obj_loader.h>\n' found
+    plant doors app/render.cpp '#include <CLI/CLI.hpp>\n' found
+    plant doors core/a.cpp '#include <immintrin.h>\n' found
+    plant includes raster/a.cpp '#include "../core/vec.h"\n' found
+    plant includes raster/a.cpp '#include "vec.h"\n' found
+    plant includes raster/a.cpp '#include "core/vec.h"\n#include <vector>\n' clean
+    plant libm raster/a.cpp 'float f(float x) { return std::sin(x); }\n' found
+    plant libm raster/a.cpp 'float f(float x) { return sinf(x); }\n' found
+    plant libm raster/a.cpp 'float f(float x) { return 2 * pow(x, 3); }\n' found
+    plant libm raster/a.cpp 'double y = std::hypot(a, b);\n' found
+    plant libm raster/a.cpp 'double y = num::sin(x) + num::pow(x, 2); // std::sin(x)\n' clean
+    plant libm raster/a.cpp 'double y = num::sin(x) + std::sin(x);\n' found
+    plant libm raster/a.cpp 'double y = std::sqrt(x) + std::floor(x);\n' clean
+    plant libm app/a.cpp 'using std::pow;\n' found
+    plant libm app/a.cpp 'using namespace std::chrono;\n' clean
+    plant libm tests/a.cpp 'double y = std::sin(x);\n' clean
+    plant files core/utils.h '#pragma once\n' found
+    plant files core/a.h '\n' found
+    plant files core/a.cpp "$(printf 'x\\n%.0s' {1..401})" found
+    plant files core/a.cpp '// TODO later\n' found
+    plant files core/a.h '#pragma once\nint f();\n' clean
+    plant format core/a.cpp 'int  f( ) ;\n' found
+    plant format core/a.cpp 'int f();\n' clean
+    rm -rf "$work"
+    [ "$failures" -eq 0 ]
+}
+
+case $1 in
+    self-test) self_test ;;
+    *) run_check "$1" "$2" ;;
+esac
