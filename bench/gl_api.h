@@ -11,21 +11,19 @@
 namespace obscura {
 
 /// Every OpenGL function the peer calls.
-#define OBSCURA_GL_FUNCTIONS(X)                                                                         \
-    X(AttachShader)                                                                                     \
-    X(BindBuffer)                                                                                       \
-    X(BindFramebuffer)                                                                                  \
-    X(BindSampler)                                                                                      \
-    X(BindTexture) X(BindVertexArray) X(ActiveTexture) X(BufferData) X(CheckFramebufferStatus) X(Clear) \
-        X(ClearColor) X(ColorMask) X(CompileShader) X(CreateProgram) X(CreateShader) X(CullFace)        \
-            X(DepthFunc) X(Disable) X(DrawBuffer) X(DrawElements) X(Enable) X(EnableVertexAttribArray)  \
-                X(Finish) X(FramebufferTexture2D) X(FrontFace) X(GenBuffers) X(GenFramebuffers)         \
-                    X(GenSamplers) X(GenTextures) X(GenVertexArrays) X(GetError) X(GetProgramInfoLog)   \
-                        X(GetProgramiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTexImage)  \
-                            X(GetUniformLocation) X(LinkProgram) X(PixelStorei) X(ReadBuffer)           \
-                                X(SamplerParameteri) X(ShaderSource) X(TexImage2D) X(TexParameteri)     \
-                                    X(Uniform1f) X(Uniform1i) X(Uniform3fv) X(UniformMatrix4fv)         \
-                                        X(UseProgram) X(VertexAttribPointer) X(Viewport)
+// clang-format off
+#define OBSCURA_GL_FUNCTIONS(X)                                                                     \
+    X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindSampler) X(BindTexture)                  \
+    X(BindVertexArray) X(ActiveTexture) X(BufferData) X(CheckFramebufferStatus) X(Clear)            \
+    X(ClearColor) X(ColorMask) X(CompileShader) X(CreateProgram) X(CreateShader) X(CullFace)        \
+    X(DepthFunc) X(Disable) X(DrawBuffer) X(DrawElements) X(Enable) X(EnableVertexAttribArray)      \
+    X(Finish) X(FramebufferTexture2D) X(FrontFace) X(GenBuffers) X(GenFramebuffers) X(GenSamplers)  \
+    X(GenTextures) X(GenVertexArrays) X(GetError) X(GetProgramInfoLog) X(GetProgramiv)              \
+    X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetTexImage) X(GetUniformLocation)            \
+    X(LinkProgram) X(PixelStorei) X(ReadBuffer) X(SamplerParameteri) X(ShaderSource) X(TexImage2D)  \
+    X(TexParameteri) X(Uniform1f) X(Uniform1i) X(Uniform3fv) X(UniformMatrix4fv) X(UseProgram)      \
+    X(VertexAttribPointer) X(Viewport)
+// clang-format on
 
 struct GlApi {
 #define OBSCURA_GL_MEMBER(NAME) decltype(&::gl##NAME) NAME = nullptr;
