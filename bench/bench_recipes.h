@@ -21,7 +21,8 @@ struct BenchRecipe {
 /// meshes/bunny.obj, the bunny once and eight times. `quick`: the small city alone.
 std::vector<BenchRecipe> bench_recipes(const std::optional<std::filesystem::path>& data, bool quick);
 
-/// columns x rows closed boxes of random height on one closed slab, 12 triangles each. The same on any machine.
+/// columns x rows closed boxes of random height on one closed slab, 12 triangles each. The same on any
+/// machine.
 Mesh box_city(int columns, int rows);
 
 /// Copies of a part in rows of `columns`, each turned a little further, standing on one closed slab.

@@ -37,7 +37,7 @@ check_doors() {
     door GoogleTest 'g(test|mock)/' 'tests/.*'
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
     door 'Embree, OSMesa' 'embree|GL/' 'bench/.*'
-    door intrinsics '[a-z]*intrin\.h' 'core/simd\.h|bench/.*'
+    door 'wide intrinsics' '(imm|avx[a-z0-9_]*|x86)intrin\.h' 'core/simd\.h|bench/.*'
 }
 
 # Rooms are entered by their name, not through the wall.
