@@ -45,40 +45,52 @@ Vec3d area_vector(const std::array<Vec3d, 3>& c) {
     return cross(c[1] - c[0], c[2] - c[0]);
 }
 
-Plane plane_of(const Mesh& mesh, std::uint32_t t) {
+/// Twice the area as a vector, per triangle.
+std::vector<Vec3d> area_vectors(const Mesh& mesh) {
+    std::vector<Vec3d> areas(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < areas.size(); ++t)
+        areas[t] = area_vector(canonical_corners(mesh, t));
+    return areas;
+}
+
+Plane plane_of(const Mesh& mesh, std::uint32_t t, Vec3d area) {
     const auto c = canonical_corners(mesh, t);
-    const Vec3d n = normalize(area_vector(c));
+    const Vec3d n = normalize(area);
     return {n, -dot(n, (c[0] + c[1] + c[2]) * (1.0 / 3.0))};
 }
 
-bool lies_on(const Mesh& mesh, std::uint32_t t, const Plane& plane, double seed_coordinate) {
-    const auto c = corners(mesh, t);
+bool lies_on(const std::array<Vec3d, 3>& c, Vec3d area, const Plane& plane, double seed_coordinate) {
+    // The normals first: on a curved surface they settle almost every question.
+    const double along = dot(area, plane.n);
+    if (!(along >= 0 && along * along >= cos_same_plane * cos_same_plane * dot(area, area))) return false;
     const double tolerance = 4.0 * 0x1p-23 * std::max(seed_coordinate, largest_coordinate(c));
-    for (const Vec3d& p : c) {
-        if (!(std::fabs(dot(plane.n, p) + plane.d) <= tolerance)) return false;
-    }
-    const Vec3d n = area_vector(c);
-    return dot(n, plane.n) >= cos_same_plane * length(n);
+    return std::all_of(c.begin(), c.end(),
+                       [&](const Vec3d& p) { return std::fabs(dot(plane.n, p) + plane.d) <= tolerance; });
 }
 
 /// Triangles from large to small; equal areas by position, identical triangles by number.
-std::vector<std::uint32_t> seeds_by_area(const Mesh& mesh) {
-    const std::size_t count = mesh.triangles.size();
-    std::vector<double> area(count);
-    for (std::uint32_t t = 0; t < count; ++t) {
-        const Vec3d n = area_vector(canonical_corners(mesh, t));
-        area[t] = dot(n, n);
-    }
-    std::vector<std::uint32_t> seeds = all_indices(count);
-    std::sort(seeds.begin(), seeds.end(), [&](std::uint32_t a, std::uint32_t b) {
-        if (area[a] != area[b]) return area[a] > area[b];
-        const auto ca = canonical_corners(mesh, a), cb = canonical_corners(mesh, b);
+std::vector<std::uint32_t> seeds_by_area(const Mesh& mesh, const std::vector<Vec3d>& areas) {
+    struct Seed {
+        double area2;
+        std::uint32_t triangle;
+    };
+    std::vector<Seed> seeds;
+    seeds.reserve(areas.size());
+    for (std::uint32_t t = 0; t < areas.size(); ++t)
+        seeds.push_back({dot(areas[t], areas[t]), t});
+    std::sort(seeds.begin(), seeds.end(), [&](const Seed& a, const Seed& b) {
+        if (a.area2 != b.area2) return a.area2 > b.area2;
+        const auto ca = canonical_corners(mesh, a.triangle), cb = canonical_corners(mesh, b.triangle);
         for (std::size_t k = 0; k < 3; ++k) {
             if (ca[k] != cb[k]) return order(ca[k]) < order(cb[k]);
         }
-        return a < b;
+        return a.triangle < b.triangle;
     });
-    return seeds;
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(seeds.size());
+    for (const Seed& seed : seeds)
+        triangles.push_back(seed.triangle);
+    return triangles;
 }
 
 /// For every triangle and corner where the edge that starts there lies in `uses`.
@@ -142,10 +154,11 @@ void find_planar_faces(Mesh& mesh, std::span<const Triangle> welded) {
     mesh.face.assign(mesh.triangles.size(), none);
     mesh.faces.clear();
     std::vector<std::uint32_t> front;
-    for (const std::uint32_t seed : seeds_by_area(mesh)) {
+    const std::vector<Vec3d> areas = area_vectors(mesh);
+    for (const std::uint32_t seed : seeds_by_area(mesh, areas)) {
         if (mesh.face[seed] != none) continue;
         const auto face = static_cast<std::uint32_t>(mesh.faces.size());
-        const Plane plane = plane_of(mesh, seed);
+        const Plane plane = plane_of(mesh, seed, areas[seed]);
         const double seed_coordinate = largest_coordinate(corners(mesh, seed));
         mesh.faces.push_back(plane);
         mesh.face[seed] = face;
@@ -156,7 +169,8 @@ void find_planar_faces(Mesh& mesh, std::span<const Triangle> welded) {
             const std::uint32_t t = front.back();
             front.pop_back();
             for_each_neighbour(edges, t, [&](std::uint32_t neighbour) {
-                if (mesh.face[neighbour] != none || !lies_on(mesh, neighbour, plane, seed_coordinate)) return;
+                if (mesh.face[neighbour] != none) return;
+                if (!lies_on(corners(mesh, neighbour), areas[neighbour], plane, seed_coordinate)) return;
                 mesh.face[neighbour] = face;
                 front.push_back(neighbour);
             });

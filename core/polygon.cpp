@@ -87,6 +87,9 @@ struct Ring {
     std::vector<std::uint32_t> reflex;  ///< corners that are not strictly convex
 };
 
+/// How often all corners may be looked at anew; only outlines that cross themselves use it up.
+constexpr int most_rounds = 64;
+
 /// No ear anywhere: the outline crosses itself or has no area. Any convex corner will do.
 std::uint32_t least_harm(const Ring& ring, std::uint32_t start) {
     std::uint32_t i = start;
@@ -106,20 +109,35 @@ std::vector<std::array<std::uint32_t, 3>> triangulate_polygon(std::span<const Ve
     if (corners.size() == 3) return {{0, 1, 2}};
 
     Ring ring(flatten(corners));
+    std::vector<bool> blocked(corners.size(), false);  // was no ear when last looked at
     std::size_t left = corners.size(), misses = 0;
+    bool looked_anew = true;
+    int rounds = 0;
     std::uint32_t at = 1;
     while (left > 3) {
-        if (misses < left && !ring.is_ear(at)) {
+        if (misses < left && (blocked[at] || !ring.is_ear(at))) {
+            blocked[at] = true;
             at = ring.next[at];
             ++misses;
+            continue;
+        }
+        // Clipping elsewhere can free a corner. That is rare, so all are looked at anew only when none is
+        // left.
+        if (misses == left && !looked_anew && rounds < most_rounds) {
+            blocked.assign(blocked.size(), false);
+            misses = 0;
+            looked_anew = true;
+            ++rounds;
             continue;
         }
         const std::uint32_t ear = misses < left ? at : least_harm(ring, at);
         triangles.push_back({ring.previous[ear], ear, ring.next[ear]});
         ring.clip(ear);
+        blocked[ring.previous[ear]] = blocked[ring.next[ear]] = false;
         // Step over the neighbour: fans of slivers around one corner are the last resort.
         at = ring.next[ring.next[ear]];
         misses = 0;
+        looked_anew = false;
         --left;
     }
     triangles.push_back({ring.previous[at], at, ring.next[at]});

@@ -73,6 +73,7 @@ std::vector<Component> judge(std::span<const EdgeUse> uses, UnionFind& parts) {
     std::vector<Component> verdict(parts.parent.size());
     std::vector<Walk> walks;
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        if (edge.size() == 2 && edge[0].forward != edge[1].forward) return;  // one part, and it balances
         walks.clear();
         for (const EdgeUse& use : edge)
             walks.push_back({parts.root(use.triangle), use.forward ? 1 : -1});
