@@ -57,7 +57,7 @@ void write_table(const InfoOptions& options, const ObjModel& model, const MeshIn
     edges("edges, welded", info.topology.welded);
     row(out, "degenerate triangles", "{}", info.topology.degenerate_triangles);
     row(out, "planar faces", "{}", info.planar_faces);
-    row(out, "bounding box", "({:.6g}, {:.6g}, {:.6g}) / ({:.6g}, {:.6g}, {:.6g}) m", info.min.x, info.min.y,
+    row(out, "bounding box", "({:.6g}, {:.6g}, {:.6g}) / ({:.6g}, {:.6g}, {:.6g})", info.min.x, info.min.y,
         info.min.z, info.max.x, info.max.y, info.max.z);
     for (const std::string& message : model.missing)
         fmt::print(out, "missing: {}\n", message);

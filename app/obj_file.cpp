@@ -157,7 +157,7 @@ void tolerate_missing(ObjModel& model, const ObjOptions& options, Fn&& fn) {
     } catch (const MissingFile& error) {
         if (!options.allow_missing) {
             throw InputError(error.file, error.line, 0,
-                             error.message + " (allow_missing renders it plain grey)");
+                             error.message + " (info --allow-missing reads on without it)");
         }
         model.missing.emplace_back(error.what());
     }

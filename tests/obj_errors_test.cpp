@@ -75,7 +75,7 @@ std::vector<BadText> bad_texts() {
          "free-form curves and surfaces are not supported"},
         {"smoothing_word", "s maybe\n", "", "text.obj:1: s takes a group number or off, found 'maybe'"},
         {"unknown_material", "mtllib a.mtl\n" + t + "usemtl n\nf 1 2 3\n", "newmtl m\n",
-         "text.obj:5: material 'n' is not defined in any mtllib (allow_missing"},
+         "text.obj:5: material 'n' is not defined in any mtllib (info --allow-missing"},
         {"mtl_before_newmtl", lib, "Kd 1 1 1\nnewmtl m\n", "text.mtl:1: Kd before any newmtl"},
         {"mtl_word", lib, "newmtl m\nKd red\n", "text.mtl:2: 'red' is not a number"},
         {"mtl_two_numbers", lib, "newmtl m\nKs 1 2\n", "text.mtl:2: Ks takes 3 numbers, found 2"},
@@ -133,7 +133,7 @@ TEST_F(ObjFileErrors, Materials) {
     expect_error<InputError>(obj("mtllib link.mtl"), "m.obj:1: mtllib link.mtl: leads outside");
     expect_error<InputError>(obj("mtllib none.mtl"),
                              "m.obj:1: mtllib none.mtl: cannot open: No such file or "
-                             "directory (allow_missing");
+                             "directory (info --allow-missing");
     expect_error<InputError>(obj("mtllib"), "m.obj:1: mtllib : empty file name");
     expect_error<InputError>(obj("mtllib ."), "scene: not a regular file, but a folder");
     folder.write("scene/bad.mtl", "newmtl a\n\nKd x\n");

@@ -217,7 +217,7 @@ TEST(InfoCommand, PrintsTheTable) {
                              "edges, welded         0 without a partner, 0 with more than two faces\n"
                              "degenerate triangles  1\n"
                              "planar faces          4\n"
-                             "bounding box          (0, 0, -2.5) / (1, 1, 0) m\n");
+                             "bounding box          (0, 0, -2.5) / (1, 1, 0)\n");
 }
 
 }  // namespace
