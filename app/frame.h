@@ -1,0 +1,59 @@
+#pragma once
+// A rendered frame: linear radiance, further channels (AOVs), and what it took.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+#include "core/buffer.h"
+#include "core/image.h"
+#include "core/vec.h"
+#include "raster/layers.h"
+
+namespace obscura {
+
+struct FrameOptions {
+    Region crop;  ///< pixels of the whole picture; empty (width or height 0) = all of it
+    bool depth = false, normal = false, albedo = false, object = false, shadow = false;  ///< AOVs wanted
+    /// Share of the tiles done, rising to 1; called from any thread, one call at a time, about 200 times.
+    std::function<void(double)> progress;
+    const std::atomic<bool>* cancel = nullptr;  ///< set it and the remaining tiles are left out
+};
+
+/// Wall-clock seconds per stage, and exact counts.
+struct FrameStats {
+    double surface_s = 0;  ///< table of surface triangles; 0 when kept
+    double shadow_s = 0;   ///< shadow maps; 0 when kept
+    double setup_s = 0;    ///< triangle setup and bins of the camera
+    double tiles_s = 0;    ///< visibility, surface, shadow lookups, shading, resolve
+    double total_s = 0;
+    std::int64_t triangles = 0;        ///< in the scene
+    std::int64_t records = 0;          ///< triangles that reach a sample of the picture, after clipping
+    std::int64_t bin_items = 0;        ///< triangle-tile pairs
+    std::int64_t samples = 0;          ///< taken
+    std::int64_t covered_samples = 0;  ///< of these, on a surface
+    std::int64_t shadow_maps = 0;      ///< views rendered for this frame, not kept ones
+    std::int64_t shadow_bytes = 0;     ///< all maps
+    std::int64_t bytes = 0;            ///< bound checked before the work: maps, buffers, channels
+};
+
+constexpr std::uint32_t no_object = 0xffffffffu;
+
+/// Pixels of the crop; channels that were not wanted are empty.
+struct Frame {
+    int x0 = 0, y0 = 0;  ///< the crop's corner in the whole picture
+    int width = 0, height = 0;
+    Raster<Vec3f> radiance;  ///< linear, W / (m^2 sr): the mean of the pixel's samples
+    // Of sample 0 (which for one sample is the pixel's centre):
+    Image<float> depth_m;         ///< metres along the view axis; infinity where nothing is
+    Image<Vec3f> normal;          ///< world space, unit, towards the viewer; 0 where nothing is
+    Image<std::uint32_t> object;  ///< index into Mesh::objects; no_object where nothing is
+    // Means of the pixel's samples:
+    Image<Vec3f> albedo;    ///< base colour times texture, linear; 0 where nothing is
+    Image<float> shadow;    ///< visibility, averaged over the lights with shadows; surfaces that face away
+                            ///< count 0; 1 where nothing is, or without such lights
+    bool complete = false;  ///< false: cancelled
+    FrameStats stats;
+};
+
+}  // namespace obscura

@@ -1,0 +1,247 @@
+#include "app/render_frame.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+
+#include "core/parallel.h"
+#include "filters/shadow_lookup.h"
+#include "raster/lighting.h"
+
+namespace obscura {
+namespace {
+
+class Stopwatch {
+  public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+bool casts_shadows(const Light& light) {
+    return sheds_light(light) && light.shadow.method == ShadowMethod::map;
+}
+
+/// Whether the map of one light serves the other.
+bool same_map(const Light& a, const Light& b) {
+    return a.kind == b.kind && a.direction == b.direction && a.position == b.position &&
+           a.outer_cone_deg == b.outer_cone_deg && a.near_m == b.near_m && a.range_m == b.range_m &&
+           a.shadow.resolution == b.shadow.resolution && a.shadow.receivers == b.shadow.receivers;
+}
+
+/// Every mesh vertex, triangle and face takes part in a view's setup; a triangle lies in few tiles.
+std::int64_t scratch_bytes(const Mesh& mesh) {
+    const auto vertices = static_cast<std::int64_t>(mesh.positions.size());
+    const auto triangles = static_cast<std::int64_t>(mesh.triangles.size());
+    const auto faces = static_cast<std::int64_t>(mesh.faces.size());
+    return vertices * static_cast<std::int64_t>(sizeof(MapVertex)) +
+           triangles * static_cast<std::int64_t>(sizeof(TriangleRecord) + 4 * sizeof(std::uint32_t)) +
+           faces * static_cast<std::int64_t>(sizeof(DepthPlane) + 2 * sizeof(std::int32_t));
+}
+
+Region crop_of(const RenderSettings& render, const FrameOptions& options) {
+    const Region& c = options.crop;
+    if (c.width <= 0 || c.height <= 0) return {0, 0, render.width, render.height};
+    CHECK(
+        c.x0 >= 0 && c.y0 >= 0 && c.x0 + c.width <= render.width && c.y0 + c.height <= render.height,
+        fmt::format("crop {},{} {}x{} of {}x{}", c.x0, c.y0, c.width, c.height, render.width, render.height));
+    return c;
+}
+
+/// One channel: as large as the frame when wanted, else empty.
+template <class T>
+void set_channel(Image<T>& channel, bool wanted, const Frame& frame) {
+    channel = wanted ? Image<T>(frame.width, frame.height) : Image<T>();
+}
+
+void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
+    frame.x0 = crop.x0;
+    frame.y0 = crop.y0;
+    frame.width = crop.width;
+    frame.height = crop.height;
+    frame.radiance.reset(crop.width, crop.height);
+    set_channel(frame.depth_m, options.depth, frame);
+    set_channel(frame.normal, options.normal, frame);
+    set_channel(frame.albedo, options.albedo, frame);
+    set_channel(frame.object, options.object, frame);
+    set_channel(frame.shadow, options.shadow, frame);
+}
+
+void check_memory(const Scene& scene, const FrameOptions& options, FrameStats& stats) {
+    stats.bytes = frame_bytes(scene, options);
+    const std::int64_t mib = (stats.bytes + (1 << 20) - 1) >> 20;
+    if (mib > scene.limits.memory_mib) {
+        throw LimitError(
+            fmt::format("the frame would take {} MiB, the limit is {} MiB: lower the resolution "
+                        "of shadow maps or the size of the picture, or raise memory_mib in "
+                        "[limits]",
+                        mib, scene.limits.memory_mib));
+    }
+}
+
+/// Tells `progress` about once per half percent, one call at a time.
+class ProgressMeter {
+  public:
+    ProgressMeter(const std::function<void(double)>& progress, std::size_t tiles)
+        : progress_(progress), tiles_(tiles), step_(std::max<std::size_t>(tiles / 200, 1)) {}
+    void tile_done() {
+        if (!progress_) return;
+        const std::lock_guard lock(mutex_);
+        ++done_;
+        if (done_ % step_ == 0 || done_ == tiles_) {
+            progress_(static_cast<double>(done_) / static_cast<double>(tiles_));
+        }
+    }
+
+  private:
+    const std::function<void(double)>& progress_;
+    std::size_t tiles_, step_, done_ = 0;
+    std::mutex mutex_;
+};
+
+void render_tiles(const TileScene& scene, const FrameOptions& options, const Exec& exec, Frame& frame) {
+    const int column0 = frame.x0 / frame_tile_side, row0 = frame.y0 / frame_tile_side;
+    const int columns = (frame.x0 + frame.width - 1) / frame_tile_side - column0 + 1;
+    const int rows = (frame.y0 + frame.height - 1) / frame_tile_side - row0 + 1;
+    const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    ProgressMeter meter(options.progress, tiles);
+    std::vector<std::int64_t> covered(tiles, 0);
+    std::atomic<bool> skipped = false;
+    parallel_for(tiles, exec, [&](std::size_t i) {
+        if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
+            skipped = true;
+            return;
+        }
+        TileWork work;  // not initialised: every stage writes what the next one reads
+        const int column = column0 + static_cast<int>(i) % columns,
+                  row = row0 + static_cast<int>(i) / columns;
+        covered[i] = render_tile(scene, column, row, options, exec.isa, work, frame);
+        meter.tile_done();
+    });
+    frame.complete = !skipped;
+    for (const std::int64_t n : covered)
+        frame.stats.covered_samples += n;
+    frame.stats.samples = static_cast<std::int64_t>(tiles) * frame_tile_side * frame_tile_side *
+                          static_cast<std::int64_t>(scene.pattern.size());
+}
+
+}  // namespace
+
+std::int64_t frame_bytes(const Scene& scene, const FrameOptions& options) {
+    const Region crop = crop_of(scene.render, options);
+    std::int64_t pixel = sizeof(Vec3f);
+    pixel += options.depth ? 4 : 0;
+    pixel += options.normal ? 12 : 0;
+    pixel += options.albedo ? 12 : 0;
+    pixel += options.object ? 4 : 0;
+    pixel += options.shadow ? 4 : 0;
+    std::int64_t bytes = pixel * crop.width * crop.height;
+    bytes += static_cast<std::int64_t>(scene.mesh.triangles.size() * sizeof(SurfaceTriangle));
+    bool shadows = false;
+    for (const Light& light : scene.lights) {
+        if (!casts_shadows(light)) continue;
+        bytes += dense_map_bytes(light);
+        shadows = true;
+    }
+    return bytes + (shadows ? 2 : 1) * scratch_bytes(scene.mesh);
+}
+
+void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats) {
+    if (!cache.prepared) {
+        const Stopwatch watch;
+        surface_triangles(scene.mesh, scene.materials, exec, cache.surface);
+        cache.bounds = bounds_of(scene.mesh);
+        cache.prepared = true;
+        stats.surface_s = watch.seconds();
+    }
+    CHECK(cache.surface.size() == scene.mesh.triangles.size(), "the mesh changed without forget()");
+
+    const Stopwatch watch;
+    std::size_t used = 0;
+    if (!cache.bounds.empty()) {
+        for (const Light& light : scene.lights) {
+            if (!casts_shadows(light)) continue;
+            if (used == cache.shadows.size()) cache.shadows.emplace_back();
+            FrameCache::Shadow& shadow = cache.shadows[used++];
+            const bool kept = !shadow.map.views.empty() && same_map(shadow.light, light);
+            shadow.light = light;
+            if (!kept) {
+                build_shadow_map(scene.mesh, light, cache.bounds, exec, cache.light_scratch, shadow.map);
+                stats.shadow_maps += static_cast<std::int64_t>(shadow.map.views.size());
+            }
+            stats.shadow_bytes += dense_map_bytes(light);
+        }
+    }
+    cache.shadows.resize(used);
+    stats.shadow_s = watch.seconds();
+}
+
+TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache) {
+    TileScene t;
+    const RenderSettings& render = scene.render;
+    t.view = camera_view(scene.camera, render.width, render.height);
+    t.rays = camera_rays(scene.camera, render.width, render.height);
+    t.pattern = sample_pattern(render.samples);
+    SetupParams params;
+    params.centre_samples_only = render.samples == 1;
+    setup_triangles(scene.mesh, t.view, params, exec, cache.camera_scratch.setup);
+    bin_records(cache.camera_scratch.setup, render.width, render.height, frame_tile_side, exec,
+                cache.camera_scratch.bins);
+    t.setup = &cache.camera_scratch.setup;
+    t.bins = &cache.camera_scratch.bins;
+    t.mesh = &scene.mesh;
+    t.surface = surface_mesh(scene.mesh, cache.surface);
+    t.materials = shade_materials(scene.materials);
+    t.textures = scene.textures;
+    t.textured = !scene.mesh.uvs.empty() && std::any_of(scene.materials.begin(), scene.materials.end(),
+                                                        [](const Material& m) { return m.texture >= 0; });
+    t.sky = shade_sky(scene.sky);
+    std::size_t shadow = 0;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        if (!sheds_light(light)) continue;
+        TileLight& tile_light = t.lights.emplace_back();
+        tile_light.scene_light = i;
+        tile_light.shade = shade_light_of(light, scene.camera.eye);
+        if (casts_shadows(light) && shadow < cache.shadows.size()) {
+            tile_light.pcf = pcf_light(light, cache.shadows[shadow++].map, scene.camera.eye);
+        }
+    }
+    return t;
+}
+
+void render_frame(const Scene& scene, const FrameOptions& options, const Exec& exec, FrameCache& cache,
+                  Frame& frame) {
+    const Stopwatch total;
+    frame.stats = FrameStats{};
+    frame.stats.triangles = static_cast<std::int64_t>(scene.mesh.triangles.size());
+    check_memory(scene, options, frame.stats);
+    prepare_scene(scene, exec, cache, frame.stats);
+
+    const Stopwatch setup;
+    const TileScene tiles = prepare_tiles(scene, exec, cache);
+    for (const RecordBlock& block : tiles.setup->blocks)
+        frame.stats.records += static_cast<std::int64_t>(block.count);
+    frame.stats.bin_items = static_cast<std::int64_t>(tiles.bins->items.size());
+    frame.stats.setup_s = setup.seconds();
+
+    const Stopwatch shade;
+    size_frame(crop_of(scene.render, options), options, frame);
+    render_tiles(tiles, options, exec, frame);
+    frame.stats.tiles_s = shade.seconds();
+    frame.stats.total_s = total.seconds();
+}
+
+Frame render_frame(const Scene& scene, const FrameOptions& options, const Exec& exec) {
+    FrameCache cache;
+    Frame frame;
+    render_frame(scene, options, exec, cache, frame);
+    return frame;
+}
+
+}  // namespace obscura

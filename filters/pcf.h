@@ -1,0 +1,58 @@
+#pragma once
+// Shadow lookups with percentage-closer filtering. POD: kernels include this.
+//
+// W. Reeves, D. Salesin, R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987: compare
+// first, then filter. A kernel of side K takes the K x K texels around the texel that holds the receiver, no
+// others. Along each axis, with f in [0, 1] the receiver's place in its own texel, they weigh
+//   K = 1:  1        K = 3:  (1 - f, 1, f) / 2        K = 5:  (1 - f, 1, 1, 1, f) / 4,
+// which is the box of K - 1 texels that is centred on the receiver itself: visibility changes continuously as
+// the receiver moves, and shadow edges are ramps, not stairs.
+//
+// A receiver is lit by a texel when its depth <= the stored depth, and wherever the map does not reach.
+
+#include <cstdint>
+
+#include "raster/gbuffer.h"
+
+namespace obscura {
+
+/// One view of a shadow map, for receivers relative to the eye.
+struct PcfView {
+    double to_map[4][4];            ///< LightView::to_map after the shift by the eye
+    const float* stored = nullptr;  ///< size x size depths, row by row
+    std::int32_t size = 0;
+    bool perspective = false;
+    double near_w = 0;    ///< perspective: receivers nearer than this are lit
+    double offset_m = 0;  ///< normal offset of receivers on open components, at distance 1 if perspective
+};
+
+/// A light as its shadow lookups see it.
+struct PcfLight {
+    PcfView view[6];
+    std::int32_t views = 1;  ///< 1, or 6: the one that cube_face() names for the receiver
+    std::int32_t side = 3;   ///< kernel side: 1, 3 or 5 texels
+    bool directional = true;
+    float to_light[3] = {0, 1, 0};  ///< directional: unit
+    float position[3] = {0, 0, 0};  ///< otherwise; relative to the eye
+};
+
+/// visibility[i] in [0, 1] of every sample of the block: 0 where nothing is covered, and without a lookup
+/// where the face looks away from the light (thin surfaces are looked up on both sides). Receivers on open
+/// components are moved along their normal, to the light's side, by offset_m.
+#define OBSCURA_PCF_BLOCK \
+    void pcf_block(const SurfaceBlock& surface, const PcfLight& light, float* visibility) noexcept;
+namespace ref {
+OBSCURA_PCF_BLOCK
+}
+namespace sse2 {
+OBSCURA_PCF_BLOCK
+}
+namespace avx2 {
+OBSCURA_PCF_BLOCK
+}
+namespace avx512bw {
+OBSCURA_PCF_BLOCK
+}
+#undef OBSCURA_PCF_BLOCK
+
+}  // namespace obscura

@@ -1,0 +1,121 @@
+// Percentage-closer filtering, one receiver and one texel at a time.
+
+#include <cmath>
+
+#include "core/scalar_lanes.h"
+#include "core/vec.h"
+#include "filters/pcf.h"
+#include "filters/shadow_lookup.h"
+#include "raster/view.h"
+
+namespace obscura::ref {
+namespace {
+
+/// The receiver in map space.
+struct Receiver {
+    bool before_near = false;
+    double X = 0, Y = 0;
+    float depth = 0;
+};
+
+/// Which way the light is, not normalised.
+Vec3f towards(const PcfLight& light, Vec3f p) {
+    if (light.directional) return {light.to_light[0], light.to_light[1], light.to_light[2]};
+    return Vec3f{light.position[0], light.position[1], light.position[2]} - p;
+}
+
+Receiver place(const PcfView& view, Vec3f p, Vec3f offset_way, bool open) {
+    double x = static_cast<double>(p.x), y = static_cast<double>(p.y), z = static_cast<double>(p.z);
+    const auto row = [&](const double(&m)[4]) { return (m[0] * x + m[1] * y) + (m[2] * z + m[3]); };
+    if (open) {
+        const double offset = view.perspective ? view.offset_m * row(view.to_map[3]) : view.offset_m;
+        x = x + static_cast<double>(offset_way.x) * offset;
+        y = y + static_cast<double>(offset_way.y) * offset;
+        z = z + static_cast<double>(offset_way.z) * offset;
+    }
+    Receiver r;
+    const double w = row(view.to_map[3]);
+    const double inv = view.perspective ? 1.0 / w : 1.0;
+    r.before_near = view.perspective && !(w >= view.near_w);
+    // Far off the map any place will do, as long as its number fits an integer.
+    const double low = -8.0, high = static_cast<double>(view.size) + 8.0;
+    r.X = lane_min(lane_max(row(view.to_map[0]) * inv, low), high);
+    r.Y = lane_min(lane_max(row(view.to_map[1]) * inv, low), high);
+    // Beyond the map's depth range there is only background, at depth 1.
+    r.depth = lane_min(static_cast<float>(row(view.to_map[2]) * inv), 1.0f);
+    return r;
+}
+
+/// Weight of tap k (0 .. side - 1), before the division by side - 1.
+float tap_weight(int k, int side, float f) {
+    if (side == 1) return 1.0f;
+    if (k == 0) return 1.0f - f;
+    return k == side - 1 ? f : 1.0f;
+}
+
+/// Calls tap(x, y, weight_x, weight_y) for each texel of the kernel and returns the filtered visibility.
+template <class Tap>
+float filtered(const Receiver& r, int side, Tap&& tap) {
+    // The receiver's own texel: the nearest centre, which is at +0.5.
+    const double cx = std::nearbyint(r.X - 0.5), cy = std::nearbyint(r.Y - 0.5);
+    const auto ix = static_cast<std::int32_t>(cx), iy = static_cast<std::int32_t>(cy);
+    const auto fx = static_cast<float>(r.X - cx), fy = static_cast<float>(r.Y - cy);
+    const int reach = side / 2;
+    float sum = 0.0f;
+    for (int j = 0; j < side; ++j) {
+        float row = 0.0f;
+        for (int i = 0; i < side; ++i) {
+            const float weight = tap_weight(i, side, fx);
+            row = row + (tap(ix + i - reach, iy + j - reach, weight) ? weight : 0.0f);
+        }
+        sum = sum + row * tap_weight(j, side, fy);
+    }
+    const float scale = side == 1 ? 1.0f : (side == 3 ? 0.25f : 0.0625f);
+    return sum * scale;
+}
+
+}  // namespace
+
+PcfTrace trace_pcf(const SurfaceBlock& s, const PcfLight& light, int at) {
+    PcfTrace trace;
+    const int group = at / 16;
+    const std::uint32_t bit = 1u << (at & 15);
+    if ((s.covered[group] & bit) == 0) return trace;
+
+    // A face that looks away from the light is dark: no lookup.
+    const Vec3f p = {s.px[at], s.py[at], s.pz[at]}, g = {s.gx[at], s.gy[at], s.gz[at]};
+    const Vec3f l = towards(light, p);
+    const float cosine = dot(g, l);
+    if (!(0.0f < cosine) && (s.thin[group] & bit) == 0) return trace;
+
+    const Vec3f away = -l;
+    trace.view = light.views == 6 ? cube_face(away) : 0;
+    const PcfView& view = light.view[trace.view];
+    const Receiver r = place(view, p, cosine < 0.0f ? -g : g, (s.open[group] & bit) != 0);
+    trace.X = r.X;
+    trace.Y = r.Y;
+    trace.depth = r.depth;
+    if (r.before_near) {
+        trace.visibility = 1.0f;
+        return trace;
+    }
+    trace.looked_up = true;
+    trace.visibility = filtered(r, light.side, [&](std::int32_t x, std::int32_t y, float weight) {
+        PcfTap tap{x, y, weight, false, 1.0f, true};
+        tap.inside = x >= 0 && y >= 0 && x < view.size && y < view.size;
+        if (tap.inside) {
+            tap.stored = view.stored[static_cast<std::int64_t>(y) * view.size + x];
+            tap.lit = r.depth <= tap.stored;
+        }
+        trace.taps.push_back(tap);
+        return tap.lit;
+    });
+    return trace;
+}
+
+void pcf_block(const SurfaceBlock& surface, const PcfLight& light, float* visibility) noexcept {
+    for (int at = 0; at < block_samples; ++at)
+        visibility[at] = trace_pcf(surface, light, at).visibility;
+}
+
+}  // namespace obscura::ref

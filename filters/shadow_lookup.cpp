@@ -1,0 +1,45 @@
+#include "filters/shadow_lookup.h"
+
+namespace obscura {
+namespace {
+
+PcfView pcf_view(const LightView& view, const Raster<float>& stored, Vec3d eye, double offset_texels) {
+    CHECK(view.width == view.height && stored.width == view.width && stored.height == view.height);
+    PcfView v{};
+    for (int r = 0; r < 4; ++r) {
+        const auto& m = view.to_map.m[r];
+        for (int c = 0; c < 3; ++c)
+            v.to_map[r][c] = m[c];
+        v.to_map[r][3] = (m[0] * eye.x + m[1] * eye.y) + (m[2] * eye.z + m[3]);
+    }
+    v.stored = stored.pixels.data();
+    v.size = view.width;
+    v.perspective = view.perspective;
+    v.near_w = view.near_w;
+    v.offset_m = offset_texels * texel_size_m(view);
+    return v;
+}
+
+void set(float (&to)[3], Vec3f v) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+}  // namespace
+
+PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye) {
+    CHECK(map.views.size() == 1 || map.views.size() == 6);
+    PcfLight p;
+    p.views = static_cast<std::int32_t>(map.views.size());
+    for (std::size_t i = 0; i < map.views.size(); ++i) {
+        p.view[i] = pcf_view(map.views[i], map.stored[i], eye, light.shadow.normal_offset_texels);
+    }
+    p.side = light.shadow.filter_px;
+    p.directional = light.kind == LightKind::directional || light.kind == LightKind::sun;
+    set(p.to_light, to_float(-normalize(light.direction)));
+    set(p.position, to_float(light.position - eye));
+    return p;
+}
+
+}  // namespace obscura

@@ -1,0 +1,70 @@
+#include "raster/lighting.h"
+
+#include <algorithm>
+
+#include "core/num.h"
+
+namespace obscura {
+namespace {
+
+void set(float (&to)[3], Vec3f v) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+}  // namespace
+
+std::vector<ShadeMaterial> shade_materials(const std::vector<Material>& materials) {
+    std::vector<ShadeMaterial> result;
+    for (const Material& m : materials) {
+        ShadeMaterial s{};
+        set(s.base, m.base_color);
+        set(s.emission, m.emission);
+        const float roughness = std::clamp(m.roughness, 0.02f, 1.0f);
+        s.alpha = roughness * roughness;
+        s.alpha2 = s.alpha * s.alpha;
+        s.gloss = 1.0f - roughness;
+        s.metallic = m.metallic;
+        s.translucency = m.translucency;
+        s.texture = m.texture;
+        result.push_back(s);
+    }
+    // Samples that nothing covers name material 0.
+    if (result.empty()) result.push_back(ShadeMaterial{});
+    return result;
+}
+
+ShadeLight shade_light_of(const Light& light, Vec3d eye) {
+    ShadeLight s;
+    set(s.to_light, to_float(-normalize(light.direction)));
+    set(s.color, light.color);
+    if (light.kind == LightKind::point || light.kind == LightKind::spot) {
+        s.kind = light.kind == LightKind::point ? ShadeLightKind::point : ShadeLightKind::spot;
+        set(s.position, to_float(light.position - eye));
+        s.inv_range2 = static_cast<float>(1.0 / (light.range_m * light.range_m));
+    }
+    if (light.kind == LightKind::spot) {
+        const double outer = num::cos_deg(light.outer_cone_deg), inner = num::cos_deg(light.inner_cone_deg);
+        s.cos_outer = static_cast<float>(outer);
+        // A cone without a soft edge: a very steep one.
+        s.inv_cone = static_cast<float>(1.0 / std::max(inner - outer, 1e-6));
+    }
+    return s;
+}
+
+bool sheds_light(const Light& light) {
+    return !light.below_horizon && (light.color.x > 0 || light.color.y > 0 || light.color.z > 0);
+}
+
+ShadeSky shade_sky(const Sky& sky) {
+    ShadeSky s{};
+    set(s.zenith, sky.zenith);
+    set(s.horizon, sky.horizon);
+    set(s.ground, sky.ground);
+    s.ambient = sky.ambient;
+    s.background = sky.visible ? 1.0f : 0.0f;
+    return s;
+}
+
+}  // namespace obscura

@@ -1,0 +1,90 @@
+#pragma once
+// From surfaces to radiance: materials, lights and sky as the shading stages read them. POD: kernels include
+// this.
+//
+// The surface model is glTF's metallic-roughness (Khronos, glTF 2.0, Appendix B): a microfacet lobe with
+//   D: GGX (Walter, Marschner, Li, Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR
+//      2007, eq. 33), alpha = roughness^2 (Burley, "Physically-Based Shading at Disney", 2012);
+//   G: Smith, height-correlated (Heitz, "Understanding the Masking-Shadowing Function", JCGT 2014, eq. 99);
+//   F: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994;
+// over Lambert. Different from glTF: what Fresnel takes from the diffuse light is (1 - F(n.l)) (1 - F(n.v)),
+// F at 4 % (after Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 2000), not 1 - F(h.v): it is
+// reciprocal too and never gives back more light than came in (tests/shade_test.cpp integrates it).
+
+#include <cstdint>
+
+#include "raster/gbuffer.h"
+
+namespace obscura {
+
+/// A material, ready: 64 bytes.
+struct ShadeMaterial {
+    float base[3];  ///< linear, times the texture
+    float alpha2;   ///< roughness^4
+    float metallic;
+    float alpha;  ///< roughness^2
+    float gloss;  ///< 1 - roughness
+    float translucency;
+    float emission[3];
+    std::int32_t texture;  ///< -1: none
+    float unused[4];
+};
+
+enum class ShadeLightKind : std::int32_t { directional, point, spot };
+
+/// A light, relative to the eye.
+struct ShadeLight {
+    ShadeLightKind kind = ShadeLightKind::directional;
+    float to_light[3] = {0, 1, 0};  ///< directional: unit, against the light's way; spot: against its axis
+    float position[3] = {0, 0, 0};  ///< point, spot
+    float color[3] = {0, 0, 0};     ///< irradiance (directional) or radiant intensity
+    float inv_range2 = 0;           ///< point, spot: 1 / range_m^2
+    float cos_outer = -1, inv_cone = 1;  ///< spot: smoothstep over (cos - cos_outer) * inv_cone
+};
+
+/// Sky radiance by direction: ground below, a straight mix from horizon to zenith above.
+struct ShadeSky {
+    float zenith[3], horizon[3], ground[3];
+    float ambient;     ///< scale of the light it sheds on surfaces
+    float background;  ///< 1: seen behind everything; 0: black
+};
+
+/// What every light needs to know of a sample, and the sum so far.
+struct alignas(64) ShadeBlock {
+    float vx[block_samples], vy[block_samples], vz[block_samples];  ///< unit, to the viewer
+    float nv[block_samples];                                        ///< n . v, at least 1e-4
+    float smith_v[block_samples];                                   ///< sqrt(nv^2 (1 - alpha2) + alpha2)
+    float alpha2[block_samples];
+    float diffuse_r[block_samples], diffuse_g[block_samples],
+        diffuse_b[block_samples];  ///< reflected, with 1 / pi and the viewer's Fresnel term
+    float through_r[block_samples], through_g[block_samples],
+        through_b[block_samples];  ///< transmitted, with 1 / pi; only where block.thin
+    float f0_r[block_samples], f0_g[block_samples], f0_b[block_samples];
+    float r[block_samples], g[block_samples], b[block_samples];  ///< radiance, W / (m^2 sr)
+};
+
+constexpr float dielectric_f0 = 0.04f;
+constexpr float inv_pi = 0.318309886183790672f;
+
+/// shade_begin: fills `shade`; radiance = emission + ambient light, or the sky where nothing is covered.
+/// shade_light: adds one light; visibility in [0, 1] per sample, null = 1 everywhere.
+#define OBSCURA_SHADE_BLOCK                                                                            \
+    void shade_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky, \
+                     const CameraRays& rays, ShadeBlock& shade) noexcept;                              \
+    void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const float* visibility,    \
+                     ShadeBlock& shade) noexcept;
+namespace ref {
+OBSCURA_SHADE_BLOCK
+}
+namespace sse2 {
+OBSCURA_SHADE_BLOCK
+}
+namespace avx2 {
+OBSCURA_SHADE_BLOCK
+}
+namespace avx512bw {
+OBSCURA_SHADE_BLOCK
+}
+#undef OBSCURA_SHADE_BLOCK
+
+}  // namespace obscura

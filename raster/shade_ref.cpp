@@ -1,0 +1,192 @@
+// Shading, one sample at a time.
+
+#include <cmath>
+
+#include "core/scalar_lanes.h"
+#include "raster/shade.h"
+#include "raster/shade_terms.h"
+
+namespace obscura::ref {
+namespace {
+
+Vec3f vec(const float (&v)[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+float fifth_power(float x) {
+    const float x2 = x * x;
+    return (x2 * x2) * x;
+}
+
+/// Schlick: f0 at normal incidence, 1 at grazing; `rest` = (1 - cos)^5.
+float schlick(float f0, float rest) {
+    return f0 + (1.0f - f0) * rest;
+}
+
+/// Share of diffuse light that the surface of a dielectric lets in (or out) at this cosine.
+float let_in(float cosine) {
+    return 1.0f - schlick(dielectric_f0, fifth_power(1.0f - cosine));
+}
+
+Vec3f to_viewer(const SurfaceBlock& s, const CameraRays& rays, int at) {
+    const Vec3f way = rays.perspective
+                          ? Vec3f{s.px[at], s.py[at], s.pz[at]}
+                          : Vec3f{static_cast<float>(rays.dir0[0]), static_cast<float>(rays.dir0[1]),
+                                  static_cast<float>(rays.dir0[2])};
+    return way * (-1.0f / std::sqrt(dot(way, way)));
+}
+
+Vec3f mix(Vec3f a, Vec3f b, float t) {
+    return a + (b - a) * t;
+}
+
+/// Light of the sky: its irradiance over the diffuse part, and for the specular part the radiance from the
+/// mirror direction, blurred towards the mean as alpha grows (no occlusion in either).
+Vec3f ambient(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& shade, Vec3f n, Vec3f v,
+              int at) {
+    const float nv = shade.nv[at];
+    const Vec3f irradiance = sky_irradiance(sky, n.y);
+    const float mirror_y = (2.0f * nv) * n.y - v.y;
+    const Vec3f mirrored = mix(sky_radiance(sky, mirror_y), sky_irradiance(sky, mirror_y) * inv_pi, m.alpha);
+    const float rest = fifth_power(1.0f - nv);
+    const auto fresnel = [&](float f0) { return f0 + (lane_max(m.gloss, f0) - f0) * rest; };
+    const Vec3f f = {fresnel(shade.f0_r[at]), fresnel(shade.f0_g[at]), fresnel(shade.f0_b[at])};
+    const Vec3f diffuse = {shade.diffuse_r[at], shade.diffuse_g[at], shade.diffuse_b[at]};
+    return (diffuse * irradiance + f * mirrored) * sky.ambient;
+}
+
+void begin_sample(const SurfaceBlock& s, const ShadeMaterial* materials, const ShadeSky& sky,
+                  const CameraRays& rays, ShadeBlock& out, int at) {
+    const std::uint32_t bit = 1u << (at & 15);
+    const int group = at / 16;
+    const Vec3f v = to_viewer(s, rays, at);
+    out.vx[at] = v.x;
+    out.vy[at] = v.y;
+    out.vz[at] = v.z;
+    Vec3f radiance;
+    if ((s.covered[group] & bit) == 0) {
+        radiance = sky_radiance(sky, -v.y) * sky.background;
+    } else {
+        const ShadeMaterial& m = materials[s.material[at]];
+        Vec3f base = vec(m.base);
+        if ((s.textured[group] & bit) != 0) {
+            base = base * Vec3f{s.texel_r[at], s.texel_g[at], s.texel_b[at]};
+        }
+        const Vec3f n = {s.nx[at], s.ny[at], s.nz[at]};
+        const float nv = lane_max(dot(n, v), 1e-4f);
+        out.nv[at] = nv;
+        out.alpha2[at] = m.alpha2;
+        out.smith_v[at] = std::sqrt((nv * nv) * (1.0f - m.alpha2) + m.alpha2);
+
+        // Metals have no diffuse part; thin sheets hand part of theirs to the other side.
+        const Vec3f body = base * ((1.0f - m.metallic) * (let_in(nv) * inv_pi));
+        const Vec3f diffuse = body * (1.0f - m.translucency);
+        const Vec3f through = body * m.translucency;
+        const Vec3f f0 = mix({dielectric_f0, dielectric_f0, dielectric_f0}, base, m.metallic);
+        out.diffuse_r[at] = diffuse.x;
+        out.diffuse_g[at] = diffuse.y;
+        out.diffuse_b[at] = diffuse.z;
+        out.through_r[at] = through.x;
+        out.through_g[at] = through.y;
+        out.through_b[at] = through.z;
+        out.f0_r[at] = f0.x;
+        out.f0_g[at] = f0.y;
+        out.f0_b[at] = f0.z;
+        radiance = vec(m.emission) + ambient(sky, m, out, n, v, at);
+    }
+    out.r[at] = radiance.x;
+    out.g[at] = radiance.y;
+    out.b[at] = radiance.z;
+}
+
+}  // namespace
+
+Vec3f sky_radiance(const ShadeSky& sky, float y) {
+    return y < 0.0f ? vec(sky.ground) : mix(vec(sky.horizon), vec(sky.zenith), y);
+}
+
+Vec3f sky_irradiance(const ShadeSky& sky, float y) {
+    // Form factors of the upper and lower hemisphere: pi (1 +- y) / 2.
+    constexpr float half_pi = 1.57079632679489662f;
+    const float up = half_pi + half_pi * y, down = half_pi - half_pi * y;
+    // The part that grows with height: the integral of max(w.y, 0) max(n.w, 0) over the sphere is
+    // (pi / 3) y + (2 / 3) (sqrt(1 - y^2) + y asin(y)); the even part as a polynomial, to 2.4e-4.
+    const float y2 = y * y;
+    const float even =
+        (((0.0706682383f * y2 - 0.0966529084f) * y2 + 0.0817211211f) * y2 + 0.324321685f) * y2 + 0.666902851f;
+    const float rise = 1.04719755119659775f * y + even;
+    return (vec(sky.horizon) * up + (vec(sky.zenith) - vec(sky.horizon)) * rise) + vec(sky.ground) * down;
+}
+
+Incident incident_light(const ShadeLight& light, Vec3f position) {
+    if (light.kind == ShadeLightKind::directional) return {vec(light.to_light), vec(light.color)};
+    const Vec3f d = vec(light.position) - position;
+    const float r2 = dot(d, d);
+    const float inv = 1.0f / std::sqrt(r2);
+    const Vec3f l = d * inv;
+    // Inverse square, windowed so that it ends at the range (Karis, "Real Shading in Unreal Engine 4", 2013).
+    const float q = r2 * light.inv_range2;
+    const float window = lane_max(1.0f - q * q, 0.0f);
+    float power = (inv * inv) * (window * window);
+    if (light.kind == ShadeLightKind::spot) {
+        const float t =
+            lane_min(lane_max((dot(l, vec(light.to_light)) - light.cos_outer) * light.inv_cone, 0.0f), 1.0f);
+        power = power * ((t * t) * (3.0f - 2.0f * t));
+    }
+    return {l, vec(light.color) * power};
+}
+
+LightTerms light_terms(const SurfaceBlock& s, const ShadeLight& light, const ShadeBlock& shade, int at) {
+    LightTerms terms;
+    terms.incident = incident_light(light, {s.px[at], s.py[at], s.pz[at]});
+    const Vec3f l = terms.incident.to_light;
+    const Vec3f n = {s.nx[at], s.ny[at], s.nz[at]}, v = {shade.vx[at], shade.vy[at], shade.vz[at]};
+    terms.nl = dot(n, l);
+    const float nl = lane_max(terms.nl, 0.0f), nv = shade.nv[at], alpha2 = shade.alpha2[at];
+
+    // The half vector is never normalised: with h = l + v, |h|^2 = s, the quotients below are those of unit
+    // vectors. 1 - (n.h)^2 is taken as |n x h|^2, which stays exact in sharp highlights.
+    const Vec3f h = l + v;
+    const float square = dot(h, h);
+    const float nh = dot(n, h);
+    const Vec3f nxh = cross(n, h);
+    const float spread = lane_max(alpha2 * (nh * nh) + dot(nxh, nxh), 1e-12f);
+    const float smith_l = std::sqrt((nl * nl) * (1.0f - alpha2) + alpha2);
+    const float smith = nl * shade.smith_v[at] + nv * smith_l;
+    // D V = alpha2 |h|^4 / (pi spread^2) * 0.5 / smith.
+    const float lobe = ((0.5f * inv_pi) * (alpha2 * (square * square))) / ((spread * spread) * smith);
+    const float rest = fifth_power(lane_max(1.0f - 0.5f * std::sqrt(square), 0.0f));
+
+    const float in = let_in(nl) * nl;
+    terms.diffuse = Vec3f{shade.diffuse_r[at], shade.diffuse_g[at], shade.diffuse_b[at]} * in;
+    const Vec3f fresnel = {schlick(shade.f0_r[at], rest), schlick(shade.f0_g[at], rest),
+                           schlick(shade.f0_b[at], rest)};
+    terms.specular = fresnel * (lobe * nl);
+    if ((s.thin[at / 16] >> (at & 15) & 1u) != 0) {
+        const float back = lane_max(-terms.nl, 0.0f);
+        terms.through =
+            Vec3f{shade.through_r[at], shade.through_g[at], shade.through_b[at]} * (let_in(back) * back);
+    }
+    return terms;
+}
+
+void shade_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky,
+                 const CameraRays& rays, ShadeBlock& shade) noexcept {
+    for (int at = 0; at < block_samples; ++at)
+        begin_sample(surface, materials, sky, rays, shade, at);
+}
+
+void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const float* visibility,
+                 ShadeBlock& shade) noexcept {
+    for (int at = 0; at < block_samples; ++at) {
+        if ((surface.covered[at / 16] >> (at & 15) & 1u) == 0) continue;
+        const LightTerms terms = light_terms(surface, light, shade, at);
+        const Vec3f reflected = (terms.diffuse + terms.specular) + terms.through;
+        const Vec3f arriving = terms.incident.irradiance * (visibility != nullptr ? visibility[at] : 1.0f);
+        shade.r[at] = shade.r[at] + reflected.x * arriving.x;
+        shade.g[at] = shade.g[at] + reflected.y * arriving.y;
+        shade.b[at] = shade.b[at] + reflected.z * arriving.z;
+    }
+}
+
+}  // namespace obscura::ref

@@ -1,0 +1,86 @@
+#include "raster/shadow_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace obscura {
+namespace {
+
+void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, const Exec& exec,
+                 RasterScratch& scratch, Raster<float>& stored) {
+    SetupParams params;
+    params.only_casters = true;
+    setup_triangles(mesh, view, params, exec, scratch.setup);
+    bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
+    stored.reset(view.width, view.height);
+    const TileBins& bins = scratch.bins;
+    const ImageView<float> out = stored.view();
+    parallel_for(static_cast<std::size_t>(bins.rows), exec, [&](std::size_t tile_row) {
+        IntervalTiler tiler;
+        alignas(64) DepthInterval interval[layer_tile_texels];
+        const auto row = static_cast<int>(tile_row);
+        for (int column = 0; column < bins.columns; ++column) {
+            const TileRect tile{column * layer_tile_side, row * layer_tile_side, layer_tile_side,
+                                layer_tile_side};
+            tiler.run(scratch.setup, bins.list(column, row), tile, receivers, exec.isa, interval);
+            const int width = std::min(layer_tile_side, view.width - tile.x0);
+            const int height = std::min(layer_tile_side, view.height - tile.y0);
+            for (int y = 0; y < height; ++y) {
+                const DepthInterval* from = interval + y * layer_tile_side;
+                std::transform(from, from + width, &out(tile.x0, tile.y0 + y), stored_depth);
+            }
+        }
+    });
+}
+
+}  // namespace
+
+std::vector<LightView> shadow_views(const Light& light, const Bounds& bounds) {
+    const int resolution = light.shadow.resolution;
+    switch (light.kind) {
+        case LightKind::directional:
+        case LightKind::sun:
+            return {orthographic_light_view(bounds, light.direction, resolution)};
+        case LightKind::spot:
+            // A little wider than the cone: filter kernels at its border find texels. Nothing is wider than
+            // 170 degrees; beyond, the cone's rim stays unshadowed.
+            return {perspective_light_view(light.position, light.direction,
+                                           std::min(2.0 * light.outer_cone_deg + 2.0, 170.0), light.near_m,
+                                           light.range_m, resolution)};
+        case LightKind::point:
+            return cube_light_views(light.position, light.near_m, light.range_m, resolution);
+    }
+    return {};
+}
+
+std::int64_t dense_map_bytes(const Light& light) {
+    if (light.shadow.method == ShadowMethod::none || light.below_horizon) return 0;
+    const std::int64_t views = light.kind == LightKind::point ? 6 : 1;
+    return views * light.shadow.resolution * light.shadow.resolution *
+           static_cast<std::int64_t>(sizeof(float));
+}
+
+void build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
+                      RasterScratch& scratch, ShadowMap& map) {
+    map.views = shadow_views(light, bounds);
+    map.stored.resize(map.views.size());
+    for (std::size_t i = 0; i < map.views.size(); ++i) {
+        render_view(mesh, map.views[i], light.shadow.receivers, exec, scratch, map.stored[i]);
+    }
+}
+
+double texel_size_m(const LightView& view) {
+    const auto& x = view.to_map.m[0];
+    Vec3d right{x[0], x[1], x[2]};
+    if (view.perspective) {
+        // The X row is right * texels per tangent + forward * width / 2.
+        const auto& w = view.to_map.m[3];
+        const Vec3d forward{w[0], w[1], w[2]};
+        right = right - forward * (dot(right, forward) / dot(forward, forward));
+    }
+    return 1.0 / length(right);
+}
+
+}  // namespace obscura

@@ -1,0 +1,194 @@
+// From a sample's depth and triangle to its surface, one sample at a time.
+
+#include <cmath>
+
+#include "core/scalar_lanes.h"
+#include "core/vec.h"
+#include "raster/coverage.h"
+#include "raster/depth_tile.h"
+#include "raster/surface.h"
+
+namespace obscura::ref {
+namespace {
+
+/// A ray and how it changes from pixel to pixel, relative to the eye.
+struct Ray {
+    Vec3f origin, dir;
+    Vec3f origin_x, origin_y, dir_x, dir_y;
+};
+
+Vec3f vector_of(const double (&v)[3]) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+/// v0 + Y vy of a row in double, then rounded: the columns are added in float.
+Vec3f row_start(const double (&v0)[3], const double (&vy)[3], double Y) {
+    return {static_cast<float>(v0[0] + vy[0] * Y), static_cast<float>(v0[1] + vy[1] * Y),
+            static_cast<float>(v0[2] + vy[2] * Y)};
+}
+
+Ray ray_at(const CameraRays& rays, double X, double Y) {
+    Ray r;
+    r.origin_x = vector_of(rays.origin_x);
+    r.origin_y = vector_of(rays.origin_y);
+    r.dir_x = vector_of(rays.dir_x);
+    r.dir_y = vector_of(rays.dir_y);
+    const auto x = static_cast<float>(X);
+    r.origin = row_start(rays.origin0, rays.origin_y, Y) + r.origin_x * x;
+    r.dir = row_start(rays.dir0, rays.dir_y, Y) + r.dir_x * x;
+    return r;
+}
+
+/// The four signed volumes of Moeller and Trumbore, all linear in a ray: u = un / det, v = vn / det.
+struct RayTriangle {
+    Vec3f e1, e2;
+    Vec3f s;        ///< corner 0 to ray origin
+    Vec3f a, b, c;  ///< un = dir . a, vn = dir . b, det = dir . c
+    float un, vn, inv;
+};
+
+RayTriangle ray_triangle(const Vec3f (&corner)[3], Vec3f origin, Vec3f dir) {
+    RayTriangle m;
+    m.e1 = corner[1] - corner[0];
+    m.e2 = corner[2] - corner[0];
+    m.s = origin - corner[0];
+    m.a = cross(m.e2, m.s);
+    m.b = cross(m.s, m.e1);
+    m.c = cross(m.e2, m.e1);
+    m.un = dot(dir, m.a);
+    m.vn = dot(dir, m.b);
+    m.inv = 1.0f / dot(dir, m.c);
+    return m;
+}
+
+Barycentrics clamped(const RayTriangle& m) {
+    // A ray in the triangle's plane gives NaN or infinity; the comparisons turn both into a corner.
+    const float b1 = lane_min(lane_max(m.un * m.inv, 0.0f), 1.0f);
+    const float b2 = lane_min(lane_max(m.vn * m.inv, 0.0f), 1.0f - b1);
+    return {b1, b2};
+}
+
+/// Change of b1 and b2 when the ray's origin moves by `o` and its direction by `d` (quotient rule).
+Barycentrics step(const RayTriangle& m, Vec3f dir, Vec3f o, Vec3f d) {
+    const float un = dot(d, m.a) + dot(o, cross(dir, m.e2));
+    const float vn = dot(d, m.b) + dot(o, cross(m.e1, dir));
+    const float det = dot(d, m.c);
+    return {(un - (m.un * m.inv) * det) * m.inv, (vn - (m.vn * m.inv) * det) * m.inv};
+}
+
+Vec3f corner_of(const float* xyz, std::uint32_t v) {
+    return {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
+}
+
+Vec2f interpolated(const Vec2f& corner, const Vec2f& e1, const Vec2f& e2, Barycentrics b) {
+    return {(corner.x + e1.x * b.b1) + e2.x * b.b2, (corner.y + e1.y * b.b1) + e2.y * b.b2};
+}
+
+struct Store {
+    SurfaceBlock& block;
+    int at;
+    void position(Vec3f p) {
+        block.px[at] = p.x;
+        block.py[at] = p.y;
+        block.pz[at] = p.z;
+    }
+    void normal(Vec3f n) {
+        block.nx[at] = n.x;
+        block.ny[at] = n.y;
+        block.nz[at] = n.z;
+    }
+    void geometric(Vec3f g) {
+        block.gx[at] = g.x;
+        block.gy[at] = g.y;
+        block.gz[at] = g.z;
+    }
+};
+
+void texture_coordinates(const SurfaceMesh& mesh, const std::uint32_t* v, const RayTriangle& m,
+                         const Ray& ray, Barycentrics b, SurfaceBlock& block, int at) {
+    const auto uv = [&](int k) { return Vec2f{mesh.uvs[2 * v[k]], mesh.uvs[2 * v[k] + 1]}; };
+    const Vec2f uv0 = uv(0), e1 = uv(1) - uv0, e2 = uv(2) - uv0;
+    const Vec2f here = interpolated(uv0, e1, e2, b);
+    const Barycentrics bx = step(m, ray.dir, ray.origin_x, ray.dir_x);
+    const Barycentrics by = step(m, ray.dir, ray.origin_y, ray.dir_y);
+    block.u[at] = here.x;
+    block.v[at] = here.y;
+    block.ux[at] = e1.x * bx.b1 + e2.x * bx.b2;
+    block.vx[at] = e1.y * bx.b1 + e2.y * bx.b2;
+    block.uy[at] = e1.x * by.b1 + e2.x * by.b2;
+    block.vy[at] = e1.y * by.b1 + e2.y * by.b2;
+}
+
+void surface_sample(const SurfaceMesh& mesh, const CameraRays& rays, const Ray& ray, SurfaceBlock& block,
+                    int at) {
+    const std::uint32_t t = block.triangle[at];
+    const SurfaceTriangle& surface = mesh.surface[t];
+    Store out{block, at};
+    out.position(ray.origin + ray.dir * view_distance(rays, block.depth[at]));
+
+    Vec3f geometric{surface.normal[0], surface.normal[1], surface.normal[2]};
+    Vec3f normal = geometric;
+    if ((surface.info & (surface_smooth | surface_textured)) != 0) {
+        const std::uint32_t* v = mesh.corners + 3 * static_cast<std::size_t>(t);
+        // Positions are relative to the eye, which two floats hold per axis.
+        const Vec3f eye = vector_of(rays.eye);
+        const Vec3f eye_rest = {static_cast<float>(rays.eye[0] - static_cast<double>(eye.x)),
+                                static_cast<float>(rays.eye[1] - static_cast<double>(eye.y)),
+                                static_cast<float>(rays.eye[2] - static_cast<double>(eye.z))};
+        Vec3f corner[3];
+        for (int k = 0; k < 3; ++k)
+            corner[k] = (corner_of(mesh.positions, v[k]) - eye) - eye_rest;
+        const RayTriangle m = ray_triangle(corner, ray.origin, ray.dir);
+        const Barycentrics b = clamped(m);
+        if ((surface.info & surface_smooth) != 0) {
+            const Vec3f n0 = corner_of(mesh.normals, v[0]);
+            const Vec3f sum = (n0 + (corner_of(mesh.normals, v[1]) - n0) * b.b1) +
+                              (corner_of(mesh.normals, v[2]) - n0) * b.b2;
+            const float square = dot(sum, sum);
+            if (square > 1e-12f) normal = sum * (1.0f / std::sqrt(square));
+        }
+        if ((surface.info & surface_textured) != 0) texture_coordinates(mesh, v, m, ray, b, block, at);
+    }
+
+    // Seen from behind: both normals turn to the viewer.
+    const bool behind = 0.0f < dot(geometric, ray.dir);
+    out.normal(behind ? -normal : normal);
+    out.geometric(behind ? -geometric : geometric);
+    block.material[at] = static_cast<std::int32_t>(surface.info & surface_material_mask);
+}
+
+}  // namespace
+
+Barycentrics barycentrics(const Vec3f (&corner)[3], Vec3f origin, Vec3f dir) {
+    return clamped(ray_triangle(corner, origin, dir));
+}
+
+void surface_block(const SurfaceMesh& mesh, const CameraRays& rays, const TileRect& tile,
+                   std::int32_t first_row, SurfaceBlock& block) noexcept {
+    for (int group = 0; group < block_groups; ++group) {
+        std::uint32_t covered = 0, open = 0, textured = 0, thin = 0;
+        for (int lane = 0; lane < 16; ++lane) {
+            const int at = 16 * group + lane;
+            const double X = sample_position(tile.x0 + at % frame_tile_side, tile.sample_x);
+            const double Y = sample_position(tile.y0 + first_row + at / frame_tile_side, tile.sample_y);
+            const Ray ray = ray_at(rays, X, Y);
+            if (block.triangle[at] == no_triangle) {
+                Store{block, at}.position(ray.origin + ray.dir * 1.0f);
+                block.material[at] = 0;
+                continue;
+            }
+            surface_sample(mesh, rays, ray, block, at);
+            const std::uint32_t info = mesh.surface[block.triangle[at]].info, bit = 1u << lane;
+            covered |= bit;
+            open |= (info & surface_open) != 0 ? bit : 0;
+            textured |= (info & surface_textured) != 0 ? bit : 0;
+            thin |= (info & surface_thin) != 0 ? bit : 0;
+        }
+        block.covered[group] = covered;
+        block.open[group] = open;
+        block.textured[group] = textured;
+        block.thin[group] = thin;
+    }
+}
+
+}  // namespace obscura::ref
