@@ -52,8 +52,8 @@ struct TreeParams {
     double height_m = 7.0;
     double crown_radius_m = 2.6;
     double trunk_m = 2.1;   ///< bare trunk below the crown
-    int leaves = 16000;     ///< four triangles each
-    double leaf_m = 0.085;  ///< length of an average leaf
+    int leaves = 20000;     ///< four triangles each
+    double leaf_m = 0.125;  ///< length of an average leaf
     int seed = 1;
 };
 GeneratedModel tree(const TreeParams& params);

@@ -163,7 +163,7 @@ std::vector<std::string> candidates(const KeySpec& key) {
         case KeyType::vec3_or_number:
             return {"[0.25, 0.5, 0.75]"};
         default:
-            for (const double v : {0.3, 0.07, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0})
+            for (const double v : {0.3, 0.07, 0.02, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0})
                 add(v);
             return values;
     }
