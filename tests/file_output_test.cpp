@@ -163,6 +163,42 @@ TEST_F(FileOutput, PipeIsWrittenDirectly) {
     EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
+TEST_F(FileOutput, OfManyRivalsForOneNewFileExactlyOneWins) {
+    // All start together, behind one pipe, and all see that the file is not there yet.
+    int start[2];
+    ASSERT_EQ(::pipe(start), 0);
+    std::vector<pid_t> rivals;
+    for (char id = 'a'; id < 'i'; ++id) {
+        const pid_t child = ::fork();
+        if (child == 0) {
+            ::close(start[1]);
+            char nothing = 0;
+            if (::read(start[0], &nothing, 1) != 0) ::_exit(99);
+            try {
+                write_file_atomically(folder / "a.png", std::string(2 << 20, id));
+            } catch (const OutputError&) {
+                ::_exit(5);
+            }
+            ::_exit(0);
+        }
+        rivals.push_back(child);
+    }
+    ::close(start[0]);
+    ::close(start[1]);
+    int winners = 0;
+    for (const pid_t rival : rivals) {
+        int status = 0;
+        ::waitpid(rival, &status, 0);
+        ASSERT_TRUE(WIFEXITED(status));
+        EXPECT_TRUE(WEXITSTATUS(status) == 0 || WEXITSTATUS(status) == 5) << WEXITSTATUS(status);
+        winners += WEXITSTATUS(status) == 0;
+    }
+    EXPECT_EQ(winners, 1);
+    const std::string bytes = content(folder / "a.png");
+    EXPECT_EQ(bytes, std::string(2 << 20, bytes.empty() ? '?' : bytes[0]));
+    EXPECT_EQ(entries(), 1u);
+}
+
 TEST_F(FileOutput, SignalRemovesTheTemporaryUnderWay) {
     // The child writes far more than fits before the signal; its handler does what main's does.
     int ready[2];

@@ -101,6 +101,15 @@ TEST(Metrics, NumbersOfAHandMadePair) {
     EXPECT_EQ(compare_images(a, b, {255, 0.0}, one).first_x, 3);
 }
 
+TEST(Metrics, OfEqualErrorsTheFirstIsNamed) {
+    Planes a{Image<float>(5, 4, 0.0f)}, b = a;
+    b[0](3, 1) = b[0](4, 1) = b[0](1, 2) = 7;
+    const ImageDifference d = compare_images(a, b, {}, one);
+    EXPECT_EQ(d.max_x, 3);
+    EXPECT_EQ(d.max_y, 1);
+    EXPECT_EQ(d.pixels_over, 3);
+}
+
 TEST(Metrics, EqualPicturesDoNotDiffer) {
     const Planes a{noise(30, 30, 4)};
     const ImageDifference d = compare_images(a, a, {}, one);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/num.h"
@@ -32,6 +33,16 @@ TEST(Sun, MeeusExample25a) {
     const SunPosition p = solar_position(1992, 10, 13, 0.0, 0.0, 0.0);
     EXPECT_NEAR(p.right_ascension_deg, (13 + 13 / 60.0 + 31.4 / 3600.0) * 15, 0.001);
     EXPECT_NEAR(p.declination_deg, -(7 + 47 / 60.0 + 6 / 3600.0), 0.001);
+}
+
+TEST(Sun, SolsticeDeclinationIsTheTrueObliquity) {
+    // Meeus, example 22.a: 1987 April 10, true obliquity 23 deg 26' 36.85"; by June nutation adds 0.1", and
+    // the slow decrease takes as much.
+    double highest = 0;
+    for (int hour = 0; hour < 96; ++hour) {
+        highest = std::max(highest, solar_position(1987, 6, 20, hour, 0, 0).declination_deg);
+    }
+    EXPECT_NEAR(highest, 23 + 26 / 60.0 + 36.85 / 3600, 0.0005);
 }
 
 TEST(Sun, ExampleOfNrelReport) {
