@@ -28,10 +28,12 @@ struct Command {
 };
 
 constexpr Command commands[] = {
+    {"render", "Render a scene file to pictures", run_render},
     {"check", "Validate a scene and say what rendering it would take", run_check},
     {"dump", "Print the effective scene, or the description of the format", run_dump},
     {"info", "Print what a mesh file holds", run_info},
     {"diff", "Compare two pictures", run_diff},
+    {"bench", "Measure our methods beside their peers", run_bench},
     {"version", "Print version, instruction sets and libraries", run_version},
 };
 

@@ -41,8 +41,10 @@ Progress::Style Progress::style_for(std::FILE* stream, bool quiet) {
 
 Progress::Progress(std::FILE* stream_, Style style_) : stream(stream_), style(style_) {}
 
-Progress::~Progress() {
+void Progress::clear() {
+    const std::lock_guard lock(mutex);
     if (!line_open) return;
+    line_open = false;
     std::fputs("\r\x1b[K", stream);
     std::fflush(stream);
 }
@@ -66,24 +68,25 @@ void Progress::update(double fraction) {
         int due = next_tenth.load();
         if (tenth < due || tenth >= 10 || !next_tenth.compare_exchange_strong(due, tenth + 1)) return;
     }
-    show(share, false);
+    show(share);
 }
 
 void Progress::finish() {
-    if (style != Style::silent) show(1.0, true);
+    if (style == Style::lines) show(1.0);
+    clear();
 }
 
-void Progress::show(double share, bool last) {
+void Progress::show(double share) {
     const std::lock_guard lock(mutex);
     const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
     std::string line =
         fmt::format("{}: {:3.0f} %  {}", label, std::floor(share * 100), duration_text(elapsed));
-    if (!last && share > 0 && elapsed > worth_guessing_s) {
+    if (share > 0 && share < 1 && elapsed > worth_guessing_s) {
         line += fmt::format(", about {} left", duration_text(elapsed / share * (1 - share)));
     }
     if (style == Style::live) {
-        std::fprintf(stream, "\r%s\x1b[K%s", line.c_str(), last ? "\n" : "");
-        line_open = !last;
+        std::fprintf(stream, "\r%s\x1b[K", line.c_str());
+        line_open = true;
     } else {
         std::fprintf(stream, "%s\n", line.c_str());
     }

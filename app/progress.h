@@ -23,8 +23,7 @@ class Progress {
     static Style style_for(std::FILE* stream, bool quiet);
 
     Progress(std::FILE* stream, Style style);
-    /// Clears the live line.
-    ~Progress();
+    ~Progress() { clear(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
@@ -32,11 +31,13 @@ class Progress {
     void begin(std::string label, double from, double to);
     /// Fraction in [0, 1] of what is under way. From any thread; cheap when there is nothing to say.
     void update(double fraction);
-    /// Ends with "LABEL: 100 %".
+    /// Takes the live line away, so that something else can be said.
+    void clear();
+    /// All is done: the last of the lines, or no live line any more.
     void finish();
 
   private:
-    void show(double share, bool last);
+    void show(double share);
 
     using Clock = std::chrono::steady_clock;
     std::FILE* stream;

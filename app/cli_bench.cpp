@@ -1,0 +1,50 @@
+// Flags of `obscura bench`.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <string>
+
+#include "app/cli_commands.h"
+#include "app/cli_flags.h"
+#include "app/scene_schema.h"
+#include "bench/raster_bench.h"
+#include "core/error.h"
+
+namespace obscura {
+
+int run_bench(const Arguments& arguments) {
+    Flags flags("bench [options] NAME",
+                "Measures our methods and their peers in one run on one machine; prints the results and "
+                "writes tables (CSV, Markdown) and, with gnuplot, charts (SVG).");
+    BenchOptions options;
+    std::string name, out = options.out.string(), data;
+    std::int64_t runs = options.runs, threads = 0;
+    flags.positional("NAME", name, "What to measure: raster (light views, dual depths and a shaded frame).");
+    flags.group("Measurement");
+    flags.whole("--runs", "N", runs, 1, 1000, "Timed runs of each job after one to warm up.",
+                std::to_string(runs));
+    flags.whole("-t,--threads", "N", threads, 1, 1024, "Measure with this many threads only.", "1 and 2");
+    flags.text("--scene", "TEXT", options.scene, "Only scenes whose name contains this.", "all");
+    flags.text("--data", "DIR", data, "Folder with meshes/bunny.obj; without it its scenes are left out.",
+               "none");
+    flags.on_off("--quick", options.quick, "Small pictures of a small scene: a check, not a measurement.");
+    flags.group("Output");
+    flags.text("-o,--output", "DIR", out, "Folder for tables and charts.", out);
+    if (!flags.parse(arguments)) return 0;
+    if (name != "raster") {
+        throw UsageError(fmt::format("there is no bench '{}'{} (see 'obscura bench --help')", name,
+                                     hint(name, {"raster"})));
+    }
+    options.out = out;
+    if (!data.empty()) options.data = data;
+    options.runs = static_cast<int>(runs);
+    if (threads > 0) options.threads = {static_cast<int>(threads)};
+    options.say = [](const std::string& line) {
+        fmt::print("{}\n", line);
+        std::fflush(stdout);
+    };
+    return bench_raster(options);
+}
+
+}  // namespace obscura

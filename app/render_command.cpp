@@ -1,0 +1,216 @@
+#include "app/render_command.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <new>
+
+#include "app/flag_values.h"
+#include "app/keyframes.h"
+#include "app/picture_file.h"
+#include "app/progress.h"
+#include "app/render_frame.h"
+#include "app/render_stats.h"
+#include "app/scene_build.h"
+#include "app/signals.h"
+#include "core/error.h"
+#include "core/file_output.h"
+#include "core/parallel.h"
+
+namespace obscura {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Runs one stage; when memory ends in it, the message says in which.
+template <class Fn>
+auto in_stage(const std::string& stage, Fn&& fn) {
+    try {
+        return fn();
+    } catch (const std::bad_alloc&) {
+        throw LimitError("out of memory while " + stage);
+    }
+}
+
+/// Everything that is settled before the scene is loaded.
+struct RenderPlan {
+    SceneDocument document;
+    RenderSettings render;
+    std::vector<int> frames;
+    std::vector<PlannedOutput> outputs;
+    FrameOptions frame_options;
+    Existing existing = Existing::refuse;
+};
+
+std::vector<int> all_frames(const FrameRange& range) {
+    std::vector<int> frames;
+    for (int i = 0; i < range.count(); ++i)
+        frames.push_back(range.at(i));
+    return frames;
+}
+
+std::vector<Output> output_list(const SceneDocument& document) {
+    std::vector<Output> outputs;
+    for (const SceneTable* table : subtables(document.root, "output")) {
+        const std::string& name = text(*table, "aov");
+        const Aov aov = name == "beauty" ? Aov::beauty : aov_values("aov", name).front();
+        outputs.push_back({aov, text(*table, "file")});
+    }
+    return outputs;
+}
+
+/// The channels that the files need.
+void request_channels(const std::vector<PlannedOutput>& outputs, FrameOptions& options) {
+    for (const PlannedOutput& output : outputs) {
+        options.depth |= output.aov == Aov::depth;
+        options.normal |= output.aov == Aov::normal;
+        options.albedo |= output.aov == Aov::albedo;
+        options.object |= output.aov == Aov::object;
+        options.shadow |= output.aov == Aov::shadow;
+    }
+}
+
+RenderPlan plan_render(const RenderOptions& options) {
+    RenderPlan plan;
+    plan.document = read_scene(options.scene, options.overrides);
+    plan.render = render_settings_of(plan.document);
+    const FrameRange range = scene_frames(plan.document);
+    plan.frames =
+        options.frames.empty() ? all_frames(range) : frame_values("--frames", options.frames, range);
+    if (!options.crop.empty()) {
+        const PixelRect r = crop_value("--crop", options.crop, plan.render.width, plan.render.height);
+        plan.frame_options.crop = {r.x0, r.y0, r.width(), r.height()};
+    }
+    plan.outputs = plan_outputs({options.output, options.aovs, options.aov_kind,
+                                 options.scene.stem().string(), plan.frames.size() > 1},
+                                output_list(plan.document));
+    request_channels(plan.outputs, plan.frame_options);
+    plan.existing = options.overwrite ? Existing::replace : Existing::refuse;
+    return plan;
+}
+
+/// Whatever would refuse a file after hours refuses it now.
+void check_outputs(const RenderPlan& plan, const RenderOptions& options) {
+    for (const int frame : plan.frames) {
+        for (const PlannedOutput& output : plan.outputs)
+            check_writable(output_path(output, frame), plan.existing);
+    }
+    if (!options.stats_json.empty()) check_writable(options.stats_json, plan.existing);
+}
+
+/// Encodes and writes the files of one frame.
+void write_frame(const RenderPlan& plan, const Frame& frame, const Exec& exec, FrameReport& report) {
+    const Clock::time_point start = Clock::now();
+    for (const PlannedOutput& output : plan.outputs) {
+        stop_if_requested();
+        const std::filesystem::path file = output_path(output, report.frame);
+        const PictureFile picture = encode_picture(frame, output.aov, output.kind, plan.render, exec);
+        write_file_atomically(file, picture.bytes, plan.existing);
+        report.files.push_back(
+            {file.string(), output.aov, static_cast<std::int64_t>(picture.bytes.size()), picture.depth});
+    }
+    report.write_s = seconds_since(start);
+}
+
+void say_plan(const RenderReport& report, std::size_t frames) {
+    constexpr double mib = 1 << 20;
+    const MemoryEstimate& m = report.memory;
+    fmt::print(stderr, "{}: {} frame{}, {} x {} pixels, {} sample{} each, {} on {} threads\n", report.scene,
+               frames, frames == 1 ? "" : "s", report.width, report.height, report.samples,
+               report.samples == 1 ? "" : "s", isa_name(report.exec.isa),
+               report.exec.threads > 0 ? report.exec.threads : hardware_threads());
+    fmt::print(stderr,
+               "loaded in {:.2f} s; memory about {:.0f} of {} MiB: meshes {:.0f}, textures {:.0f}, "
+               "shadow maps {:.0f}, frame {:.0f}\n",
+               report.load_s, static_cast<double>(m.total()) / mib, report.limit_mib,
+               static_cast<double>(m.meshes) / mib, static_cast<double>(m.textures) / mib,
+               static_cast<double>(m.shadow_maps) / mib, static_cast<double>(m.frame) / mib);
+}
+
+/// `files`: name every file, not only those with something to state.
+void say_frame(const FrameReport& report, bool files, int verbosity) {
+    for (const WrittenFile& file : report.files) {
+        if (!files && !file.depth) continue;
+        fmt::print(stderr, "{}: {:.2f} s", file.file, report.stats.total_s + report.write_s);
+        if (file.depth) {
+            fmt::print(stderr, ", depth 0 = {} m, 65534 = {} m", file.depth->nearest_m,
+                       file.depth->farthest_m);
+        }
+        fmt::print(stderr, "\n");
+    }
+    if (verbosity == 0) return;
+    const FrameStats& s = report.stats;
+    fmt::print(
+        stderr,
+        "  surfaces {:.3f} s, shadow maps {:.3f} s ({}), setup {:.3f} s, tiles {:.3f} s, files {:.3f} s\n",
+        s.surface_s, s.shadow_s, s.shadow_maps, s.setup_s, s.tiles_s, report.write_s);
+    fmt::print(stderr, "  {} triangles, {} in view, {} samples, {} of them on a surface\n", s.triangles,
+               s.records, s.samples, s.covered_samples);
+}
+
+/// All frames, one after the other; each uses all threads.
+void render_frames(RenderPlan& plan, Scene& scene, const RenderOptions& options, RenderReport& report) {
+    Progress progress(stderr, Progress::style_for(stderr, options.quiet));
+    plan.frame_options.cancel = &stop_requested();
+    plan.frame_options.progress = [&](double fraction) { progress.update(fraction); };
+    FrameCache cache;
+    Frame frame;
+    const auto count = static_cast<double>(plan.frames.size());
+    for (std::size_t i = 0; i < plan.frames.size(); ++i) {
+        const int number = plan.frames[i];
+        const auto done = static_cast<double>(i);
+        progress.begin(fmt::format("frame {} ({} of {})", number, i + 1, plan.frames.size()), done / count,
+                       (done + 1) / count);
+        FrameReport& frame_report = report.frames.emplace_back();
+        frame_report.frame = number;
+        set_frame(scene, plan.document, number);
+        in_stage(fmt::format("rendering frame {}", number),
+                 [&] { render_frame(scene, plan.frame_options, options.exec, cache, frame); });
+        stop_if_requested();
+        frame_report.stats = frame.stats;
+        in_stage(fmt::format("writing frame {}", number),
+                 [&] { write_frame(plan, frame, options.exec, frame_report); });
+        progress.clear();
+        if (!options.quiet)
+            say_frame(frame_report, plan.frames.size() == 1 || options.verbosity > 0, options.verbosity);
+    }
+    progress.finish();
+}
+
+}  // namespace
+
+int render_command(const RenderOptions& options) {
+    const Clock::time_point start = Clock::now();
+    RenderPlan plan = in_stage("reading the scene", [&] { return plan_render(options); });
+    check_outputs(plan, options);
+    Scene scene = in_stage("loading the scene", [&] {
+        return build_scene(plan.document, FileAccess{plan.document.folder, options.allowed_paths});
+    });
+
+    RenderReport report;
+    report.scene = options.scene.string();
+    report.exec = options.exec;
+    const Region& crop = plan.frame_options.crop;
+    report.width = crop.width > 0 ? crop.width : plan.render.width;
+    report.height = crop.height > 0 ? crop.height : plan.render.height;
+    report.samples = plan.render.samples;
+    report.memory = estimate_memory(scene);
+    report.limit_mib = scene.limits.memory_mib;
+    report.load_s = seconds_since(start);
+    if (options.verbosity > 0 && !options.quiet) say_plan(report, plan.frames.size());
+
+    // From here on there are results to lose: a signal lets the current file finish.
+    set_signal_policy(OnSignal::ask_to_stop);
+    render_frames(plan, scene, options, report);
+    report.total_s = seconds_since(start);
+    if (!options.stats_json.empty()) {
+        write_file_atomically(options.stats_json, stats_json(report), plan.existing);
+    }
+    return 0;
+}
+
+}  // namespace obscura

@@ -1,0 +1,84 @@
+#include "app/render_stats.h"
+
+#include <sys/resource.h>
+
+#include "app/flag_values.h"
+#include "app/json_writer.h"
+#include "app/version_command.h"
+#include "core/parallel.h"
+
+namespace obscura {
+namespace {
+
+/// Most memory this process ever held, bytes.
+std::int64_t peak_resident_bytes() {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+void put_memory(JsonWriter& json, const RenderReport& report) {
+    json.key("memory").begin_object();
+    json.member("limit_bytes", report.limit_mib << 20);
+    json.member("estimate_bytes", report.memory.total());
+    json.member("meshes_bytes", report.memory.meshes);
+    json.member("textures_bytes", report.memory.textures);
+    json.member("shadow_maps_bytes", report.memory.shadow_maps);
+    json.member("frame_bytes", report.memory.frame);
+    json.member("peak_resident_bytes", peak_resident_bytes());
+    json.end_object();
+}
+
+void put_seconds(JsonWriter& json, const FrameReport& frame) {
+    const FrameStats& s = frame.stats;
+    json.key("seconds").begin_object();
+    json.member("surface", s.surface_s).member("shadow", s.shadow_s).member("setup", s.setup_s);
+    json.member("tiles", s.tiles_s).member("render", s.total_s).member("write", frame.write_s);
+    json.end_object();
+}
+
+void put_counts(JsonWriter& json, const FrameStats& s) {
+    json.key("counts").begin_object();
+    json.member("triangles", s.triangles).member("records", s.records).member("bin_items", s.bin_items);
+    json.member("samples", s.samples).member("covered_samples", s.covered_samples);
+    json.member("shadow_maps", s.shadow_maps).member("shadow_bytes", s.shadow_bytes);
+    json.end_object();
+}
+
+void put_file(JsonWriter& json, const WrittenFile& file) {
+    json.begin_object();
+    json.member("file", file.file).member("aov", aov_name(file.aov)).member("bytes", file.bytes);
+    if (file.depth) {
+        json.member("nearest_m", double{file.depth->nearest_m});
+        json.member("farthest_m", double{file.depth->farthest_m});
+    }
+    json.end_object();
+}
+
+}  // namespace
+
+std::string stats_json(const RenderReport& report) {
+    JsonWriter json;
+    json.begin_object();
+    json.member("schema", 1).member("program", program_version()).member("scene", report.scene);
+    json.member("isa", isa_name(report.exec.isa));
+    json.member("threads", report.exec.threads > 0 ? report.exec.threads : hardware_threads());
+    json.member("width_px", report.width).member("height_px", report.height);
+    json.member("samples", report.samples);
+    json.member("load_s", report.load_s).member("total_s", report.total_s);
+    put_memory(json, report);
+    json.key("frames").begin_list();
+    for (const FrameReport& frame : report.frames) {
+        json.begin_object().member("frame", frame.frame);
+        put_seconds(json, frame);
+        put_counts(json, frame.stats);
+        json.key("files").begin_list();
+        for (const WrittenFile& file : frame.files)
+            put_file(json, file);
+        json.end_list().end_object();
+    }
+    json.end_list().end_object();
+    return json.finish();
+}
+
+}  // namespace obscura
