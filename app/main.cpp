@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -17,6 +18,7 @@
 #include "app/signals.h"
 #include "app/version_command.h"
 #include "core/error.h"
+#include "core/file_output.h"
 
 namespace obscura {
 namespace {
@@ -81,6 +83,32 @@ int report(ExitCode code, const std::string& message) {
     return static_cast<int>(code);
 }
 
+/// Exceptions that leave a thread of the library underneath (it could not start its threads, mostly) end up
+/// here, with nobody left to catch them: the same message and code, without a core file.
+[[noreturn]] void on_terminate() {
+    static std::atomic_flag reporting = ATOMIC_FLAG_INIT;
+    while (reporting.test_and_set()) {
+        ::pause();  // another thread is telling the same story
+    }
+    remove_pending_outputs();
+    ExitCode code = ExitCode::internal;
+    std::string message = "ended by an unknown exception";
+    try {
+        if (const std::exception_ptr exception = std::current_exception()) std::rethrow_exception(exception);
+    } catch (const std::bad_alloc&) {
+        code = ExitCode::limit;
+        message = "out of memory";
+    } catch (const std::exception& e) {
+        message = e.what();
+        if (message.find("pthread_create") != std::string::npos) {
+            code = ExitCode::limit;
+            message = "out of memory or threads (fewer --threads need less): " + message;
+        }
+    } catch (...) {
+    }
+    ::_exit(report(code, message));
+}
+
 constexpr int closed_pipe = static_cast<int>(ExitCode::signal_base) + 13;  // as if SIGPIPE had ended us
 
 /// Sends what is buffered; a reader that went away is a quiet end, anything else lost output.
@@ -124,6 +152,7 @@ int run_and_report(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     obscura::install_signal_handlers();
+    std::set_terminate(obscura::on_terminate);
     const obscura::Arguments arguments(argv + std::min(argc, 1), argv + argc);
     return obscura::flush_output(obscura::run_and_report(arguments));
 }

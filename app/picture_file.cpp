@@ -12,7 +12,7 @@
 namespace obscura {
 namespace {
 
-constexpr std::uint16_t white16 = 65535, farthest16 = 65534;
+constexpr std::uint16_t white16 = 65535;
 
 /// A picture of the same size, pixel by pixel.
 template <class To, class From, class Fn>
@@ -49,7 +49,7 @@ PictureFile depth_png(const Image<float>& depth) {
     const double span = range ? double{range->farthest_m} - low : 0.0;
     const auto code = [=](float d) {
         if (!std::isfinite(d)) return white16;
-        return code16(span > 0 ? (double{d} - low) / span : 0.0, farthest16);
+        return code16(span > 0 ? (double{d} - low) / span : 0.0, farthest_code);
     };
     return {encode_png(mapped<std::uint16_t>(depth.view(), code).view()), range};
 }

@@ -1,15 +1,20 @@
 #pragma once
 // Channels of a frame as the bytes of a picture file.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
 #include "app/frame.h"
 #include "app/output_plan.h"
 #include "core/isa.h"
+#include "core/pixel.h"
 #include "core/scene.h"
 
 namespace obscura {
+
+/// The code of the farthest depth in a depth PNG; the nearest is 0.
+constexpr std::uint16_t farthest_code = 65534;
 
 /// Depths that a mapped PNG spans, metres.
 struct DepthRange {
