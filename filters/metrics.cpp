@@ -70,9 +70,10 @@ RowSums compare_row(const Planes& a, const Planes& b, int y, double threshold) {
 /// Gaussian weights of an odd window, sigma 1.5, sum 1.
 std::vector<double> window_weights(int size) {
     std::vector<double> w;
+    const int centre = size / 2;
     double sum = 0;
     for (int i = 0; i < size; ++i) {
-        const double d = (i - size / 2) / 1.5;
+        const double d = (i - centre) / 1.5;
         w.push_back(num::exp(-0.5 * d * d));
         sum += w.back();
     }
@@ -241,7 +242,8 @@ Image<Rgb8> difference_picture(const Planes& a, const Planes& b, double full_sca
             const auto i = std::min<std::size_t>(3, static_cast<std::size_t>(at));
             const double t = at - static_cast<double>(i);
             const auto mix = [&](std::size_t c) {
-                return static_cast<std::uint8_t>(heat[i][c] + t * (heat[i + 1][c] - heat[i][c]) + 0.5);
+                return static_cast<std::uint8_t>(
+                    std::floor(heat[i][c] + t * (heat[i + 1][c] - heat[i][c]) + 0.5));
             };
             picture(x, y) = {mix(0), mix(1), mix(2)};
         }
