@@ -106,21 +106,21 @@ TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosi
 }
 
 void block_surface(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work) {
-    (void)isa;
     std::copy_n(work.depth + first_row * frame_tile_side, block_samples, work.surface.depth);
     std::copy_n(work.triangle + first_row * frame_tile_side, block_samples, work.surface.triangle);
-    ref::surface_block(scene.surface, scene.rays, tile, first_row, work.surface);
+    OBSCURA_DISPATCH(isa, surface_block, scene.surface, scene.rays, tile, first_row, work.surface);
     if (scene.textured) sample_textures(work.surface, scene.materials, scene.textures);
 }
 
 void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work) {
-    (void)isa;
-    ref::shade_begin(work.surface, scene.materials.data(), scene.sky, scene.rays, work.shade);
+    OBSCURA_DISPATCH(isa, shade_begin, work.surface, scene.materials.data(), scene.sky, scene.rays,
+                     work.shade);
     int with_shadow = 0;
     if (shadow) std::fill_n(work.shadow_sum, block_samples, 0.0f);
     for (const TileLight& light : scene.lights) {
-        if (light.pcf) ref::pcf_block(work.surface, *light.pcf, work.visibility);
-        ref::shade_light(work.surface, light.shade, light.pcf ? work.visibility : nullptr, work.shade);
+        if (light.pcf) OBSCURA_DISPATCH(isa, pcf_block, work.surface, *light.pcf, work.visibility);
+        OBSCURA_DISPATCH(isa, shade_light, work.surface, light.shade, light.pcf ? work.visibility : nullptr,
+                         work.shade);
         if (!shadow || !light.pcf) continue;
         ++with_shadow;
         for (int i = 0; i < block_samples; ++i)

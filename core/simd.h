@@ -273,6 +273,18 @@ OBSCURA_INLINE std::uint32_t bits(const Mask& m) {
     return all;
 #endif
 }
+/// Bit i becomes lane i; bits beyond the 16th are ignored.
+OBSCURA_INLINE Mask mask_of(std::uint32_t lane_bits) {
+#if defined(OBSCURA_ISA_avx512bw)
+    return {{Mask::Reg(static_cast<__mmask16>(lane_bits))}};
+#else
+    alignas(64) static constexpr std::int32_t bit[16] = {1 << 0,  1 << 1,  1 << 2,  1 << 3, 1 << 4,  1 << 5,
+                                                         1 << 6,  1 << 7,  1 << 8,  1 << 9, 1 << 10, 1 << 11,
+                                                         1 << 12, 1 << 13, 1 << 14, 1 << 15};
+    const I32 own = load(bit);
+    return equal(splat(static_cast<std::int32_t>(lane_bits)) & own, own);
+#endif
+}
 OBSCURA_INLINE bool any(const Mask& m) {
     return bits(m) != 0;
 }

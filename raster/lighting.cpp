@@ -25,6 +25,8 @@ std::vector<ShadeMaterial> shade_materials(const std::vector<Material>& material
         s.alpha = roughness * roughness;
         s.alpha2 = s.alpha * s.alpha;
         s.gloss = 1.0f - roughness;
+        // Half of a GGX lobe's mirror directions lie within about 2 alpha of its middle.
+        s.sharpness = 0.25f / s.alpha;
         s.metallic = m.metallic;
         s.translucency = m.translucency;
         s.texture = m.texture;

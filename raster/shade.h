@@ -27,7 +27,8 @@ struct ShadeMaterial {
     float translucency;
     float emission[3];
     std::int32_t texture;  ///< -1: none
-    float unused[4];
+    float sharpness;  ///< of the horizon's mirror image: it is smeared over +-0.5 / sharpness in direction y
+    float unused[3];
 };
 
 enum class ShadeLightKind : std::int32_t { directional, point, spot };

@@ -40,6 +40,12 @@ Vec3f mix(Vec3f a, Vec3f b, float t) {
     return a + (b - a) * t;
 }
 
+/// sky_radiance() with its horizon smeared, as a rough mirror shows it.
+Vec3f smeared_radiance(const ShadeSky& sky, float y, float sharpness) {
+    const float above = lane_min(lane_max(0.5f + y * sharpness, 0.0f), 1.0f);
+    return mix(vec(sky.ground), mix(vec(sky.horizon), vec(sky.zenith), lane_max(y, 0.0f)), above);
+}
+
 /// Light of the sky: its irradiance over the diffuse part, and for the specular part the radiance from the
 /// mirror direction, blurred towards the mean as alpha grows (no occlusion in either).
 Vec3f ambient(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& shade, Vec3f n, Vec3f v,
@@ -47,7 +53,8 @@ Vec3f ambient(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& sha
     const float nv = shade.nv[at];
     const Vec3f irradiance = sky_irradiance(sky, n.y);
     const float mirror_y = (2.0f * nv) * n.y - v.y;
-    const Vec3f mirrored = mix(sky_radiance(sky, mirror_y), sky_irradiance(sky, mirror_y) * inv_pi, m.alpha);
+    const Vec3f mirrored =
+        mix(smeared_radiance(sky, mirror_y, m.sharpness), sky_irradiance(sky, mirror_y) * inv_pi, m.alpha);
     const float rest = fifth_power(1.0f - nv);
     const auto fresnel = [&](float f0) { return f0 + (lane_max(m.gloss, f0) - f0) * rest; };
     const Vec3f f = {fresnel(shade.f0_r[at]), fresnel(shade.f0_g[at]), fresnel(shade.f0_b[at])};

@@ -1,0 +1,161 @@
+// Percentage-closer filtering, sixteen receivers of a row at a time. See pcf_ref.cpp for the meaning of each
+// step.
+
+#include "core/simd_vec.h"
+#include "filters/pcf.h"
+
+namespace obscura::OBSCURA_ISA {
+namespace {
+
+struct Receivers16 {
+    Mask before_near;
+    F64 X, Y;
+    F32 depth;
+};
+
+struct Position16 {
+    F64 x, y, z;
+    OBSCURA_INLINE F64 row(const double (&m)[4]) const {
+        return (splat(m[0]) * x + splat(m[1]) * y) + (splat(m[2]) * z + splat(m[3]));
+    }
+};
+
+/// `offset_way` is 0 in the lanes that are not moved.
+OBSCURA_INLINE Receivers16 place(const PcfView& view, const Vec3x16& p, const Vec3x16& offset_way,
+                                 bool any_open) {
+    Position16 at{to_f64(p.x), to_f64(p.y), to_f64(p.z)};
+    if (any_open) {
+        F64 offset = splat(view.offset_m);
+        if (view.perspective) offset = offset * at.row(view.to_map[3]);
+        at = {at.x + to_f64(offset_way.x) * offset, at.y + to_f64(offset_way.y) * offset,
+              at.z + to_f64(offset_way.z) * offset};
+    }
+    Receivers16 r;
+    F64 X = at.row(view.to_map[0]), Y = at.row(view.to_map[1]), Z = at.row(view.to_map[2]);
+    r.before_near = mask_of(0);
+    if (view.perspective) {
+        const F64 w = at.row(view.to_map[3]);
+        const F64 inv = splat(1.0) / w;
+        X = X * inv;
+        Y = Y * inv;
+        Z = Z * inv;
+        r.before_near = ~greater_equal(w, splat(view.near_w));
+    }
+    const F64 low = splat(-8.0), high = splat(static_cast<double>(view.size) + 8.0);
+    r.X = min(max(X, low), high);
+    r.Y = min(max(Y, low), high);
+    r.depth = min(to_f32(Z), splat(1.0f));
+    return r;
+}
+
+OBSCURA_INLINE F32 tap_weight(int k, int side, const F32& f) {
+    if (side == 1) return splat(1.0f);
+    if (k == 0) return splat(1.0f) - f;
+    return k == side - 1 ? f : splat(1.0f);
+}
+
+OBSCURA_INLINE Mask between(const I32& a, std::int32_t low, std::int32_t high) {
+    return less_equal(splat(low), a) & less_equal(a, splat(high));
+}
+OBSCURA_INLINE I32 clamped(const I32& a, std::int32_t low, std::int32_t high) {
+    return min(max(a, splat(low)), splat(high));
+}
+
+/// Mean over the kernel; `side` is known at compile time in each caller.
+template <bool inside_map>
+OBSCURA_INLINE F32 filtered(const PcfView& view, const Receivers16& r, const I32& ix, const I32& iy,
+                            const F32& fx, const F32& fy, int side) {
+    const std::int32_t reach = side / 2, last = view.size - 1;
+    F32 sum = splat(0.0f);
+    for (std::int32_t j = 0; j < side; ++j) {
+        F32 row = splat(0.0f);
+        for (std::int32_t i = 0; i < side; ++i) {
+            const I32 x = ix + splat(i - reach), y = iy + splat(j - reach);
+            Mask lit;
+            if constexpr (inside_map) {
+                const F32 stored = gather(view.stored, y * splat(view.size) + x);
+                lit = less_equal(r.depth, stored);
+            } else {
+                const I32 index = clamped(y, 0, last) * splat(view.size) + clamped(x, 0, last);
+                const Mask inside = between(x, 0, last) & between(y, 0, last);
+                lit = less_equal(r.depth, gather(view.stored, index)) | ~inside;
+            }
+            row = row + select(lit, tap_weight(i, side, fx), splat(0.0f));
+        }
+        sum = sum + row * tap_weight(j, side, fy);
+    }
+    return sum * splat(side == 1 ? 1.0f : (side == 3 ? 0.25f : 0.0625f));
+}
+
+template <int side>
+OBSCURA_INLINE F32 filtered_side(const PcfView& view, const Receivers16& r, const Mask& todo) {
+    I32 ix = round_to_i32(r.X - splat(0.5)), iy = round_to_i32(r.Y - splat(0.5));
+    const F32 fx = to_f32(r.X - to_f64(ix)), fy = to_f32(r.Y - to_f64(iy));
+    const std::int32_t low = side / 2, high = view.size - 1 - side / 2;
+    const Mask interior = between(ix, low, high) & between(iy, low, high);
+    if (high >= low && all(interior | ~todo)) {
+        // Lanes that nobody asked about must not read beyond the map.
+        ix = clamped(ix, low, high);
+        iy = clamped(iy, low, high);
+        return filtered<true>(view, r, ix, iy, fx, fy, side);
+    }
+    return filtered<false>(view, r, ix, iy, fx, fy, side);
+}
+
+OBSCURA_INLINE F32 lookup(const PcfView& view, int side, const Vec3x16& p, const Vec3x16& offset_way,
+                          bool any_open, const Mask& todo) {
+    const Receivers16 r = place(view, p, offset_way, any_open);
+    F32 seen;
+    if (side == 1) {
+        seen = filtered_side<1>(view, r, todo);
+    } else if (side == 3) {
+        seen = filtered_side<3>(view, r, todo);
+    } else {
+        seen = filtered_side<5>(view, r, todo);
+    }
+    return select(r.before_near, splat(1.0f), seen);
+}
+
+/// Twin of cube_face() (raster/view.h).
+OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
+    const F32 ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero = splat(0.0f);
+    const auto face = [&](const F32& along, std::int32_t positive) {
+        return select(less_equal(zero, along), splat(positive), splat(positive + 1));
+    };
+    const I32 y_or_z = select(less_equal(az, ay), face(d.y, 2), face(d.z, 4));
+    return select(less_equal(ay, ax) & less_equal(az, ax), face(d.x, 0), y_or_z);
+}
+
+OBSCURA_INLINE F32 group_visibility(const SurfaceBlock& s, const PcfLight& light, int at) {
+    const std::uint32_t covered = s.covered[at / 16];
+    F32 visibility = splat(0.0f);
+    if (covered == 0) return visibility;
+    const Vec3x16 p = load3(s.px + at, s.py + at, s.pz + at), g = load3(s.gx + at, s.gy + at, s.gz + at);
+    const Vec3x16 l = light.directional ? splat3(light.to_light) : splat3(light.position) - p;
+    const F32 cosine = dot(g, l);
+    const Mask todo = mask_of(covered) & (less(splat(0.0f), cosine) | mask_of(s.thin[at / 16]));
+    if (none(todo)) return visibility;
+
+    const std::uint32_t open = s.open[at / 16];
+    const Vec3x16 offset_way =
+        select(mask_of(open), negated(less(cosine, splat(0.0f)), g), splat3(0.0f, 0.0f, 0.0f));
+    if (light.views == 1) {
+        return select(todo, lookup(light.view[0], light.side, p, offset_way, open != 0, todo), visibility);
+    }
+    const I32 face = cube_faces(negated(mask_of(0xffffu), l));
+    for (std::int32_t f = 0; f < 6; ++f) {
+        const Mask m = todo & equal(face, splat(f));
+        if (none(m)) continue;
+        visibility = select(m, lookup(light.view[f], light.side, p, offset_way, open != 0, m), visibility);
+    }
+    return visibility;
+}
+
+}  // namespace
+
+void pcf_block(const SurfaceBlock& surface, const PcfLight& light, float* visibility) noexcept {
+    for (int at = 0; at < block_samples; at += lanes)
+        store(visibility + at, group_visibility(surface, light, at));
+}
+
+}  // namespace obscura::OBSCURA_ISA
