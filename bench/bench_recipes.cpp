@@ -5,6 +5,7 @@
 #include "app/obj_file.h"
 #include "raster/view.h"
 #include "scenes/build.h"
+#include "scenes/city.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 
@@ -60,6 +61,7 @@ std::vector<BenchRecipe> bench_recipes(const std::optional<std::filesystem::path
     std::vector<BenchRecipe> recipes = {{"city", [] { return box_city(30, 30); }}};
     if (quick) return recipes;
     recipes.push_back({"bigcity", [] { return box_city(225, 220); }});
+    recipes.push_back({"town", [] { return city({594'000, 0, 1}).mesh; }});
     if (data && std::filesystem::exists(*data / "meshes" / "bunny.obj")) {
         recipes.push_back({"bunny", [data] { return copies_on_slab(load_bunny(*data), 1, 1); }});
         recipes.push_back({"bunny8", [data] { return copies_on_slab(load_bunny(*data), 8, 3); }});

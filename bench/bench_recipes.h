@@ -17,8 +17,9 @@ struct BenchRecipe {
     std::function<Mesh()> make;
 };
 
-/// Scenes of the bench: two cities of boxes (10,812 and 594,012 triangles) and, when `data` holds
-/// meshes/bunny.obj, the bunny once and eight times. `quick`: the small city alone.
+/// Scenes of the bench: two cities of boxes (10,812 and 594,012 triangles), a town of the generator with
+/// about as many, and, when `data` holds meshes/bunny.obj, the bunny once and eight times. `quick`: the small
+/// city alone.
 std::vector<BenchRecipe> bench_recipes(const std::optional<std::filesystem::path>& data, bool quick);
 
 /// columns x rows closed boxes of random height on one closed slab, 12 triangles each. The same on any

@@ -29,6 +29,7 @@ BenchScene stage_scene(std::string name, Mesh mesh, const BenchSize& size) {
     bench.name = std::move(name);
     Scene& scene = bench.scene;
     scene.mesh = std::move(mesh);
+    scene.mesh.material.assign(scene.mesh.triangles.size(), 0);
     if (scene.mesh.objects.empty()) scene.mesh.objects = {{"all", true}};
     const auto start = std::chrono::steady_clock::now();
     analyse_topology(scene.mesh);

@@ -86,17 +86,21 @@ std::string quoted(const std::string& text) {
     return out + '\'';
 }
 
+/// "0.04x", "1.3x", "12x".
+std::string ratio_text(double ratio) {
+    return fmt::format("{:.{}f}x", ratio, ratio < 0.95 ? 2 : ratio < 9.5 ? 1 : 0);
+}
+
 std::string ratios_text(const std::vector<BenchRow>& rows, const ChartLine& line) {
     std::string text;
     for (const BenchRow* row : line.rows) {
         const std::optional<double> ratio = ratio_to_ours(rows, *row);
-        const std::string value = ratio ? fmt::format("{:.{}f}x", *ratio, *ratio < 10 ? 1 : 0) : "-";
-        text += (text.empty() ? "" : "  /  ") + value;
+        text += (text.empty() ? "" : "  /  ") + (ratio ? ratio_text(*ratio) : std::string("-"));
     }
     return text;
 }
 
-/// Widest range of the times in whole 1-2-5 steps is left to gnuplot; we only keep it from clipping the bars.
+/// From the fastest to the slowest run, with room at both ends.
 std::array<double, 2> time_range(const std::vector<ChartLine>& lines) {
     double low = 1e300, high = 0;
     for (const ChartLine& line : lines) {
@@ -108,8 +112,19 @@ std::array<double, 2> time_range(const std::vector<ChartLine>& lines) {
     return {low / 1.5, high * 1.5};
 }
 
+/// Where the point of the t-th thread count stands: just above or below the middle of line y.
+double point_height(std::size_t y, std::size_t t, std::size_t thread_counts) {
+    const double share = (static_cast<double>(t) + 0.5) / static_cast<double>(thread_counts);
+    return static_cast<double>(y) + 1.0 + 0.4 * (share - 0.5);
+}
+
+void add_point(std::string& script, const BenchRow& row, double height) {
+    const auto [low, high] = std::minmax_element(row.runs_ms.begin(), row.runs_ms.end());
+    script += fmt::format("{:.4f} {:.2f} {:.4f} {:.4f}\n", median(row.runs_ms), height, *low, *high);
+}
+
 /// One data block per contestant and thread count, and the plot command over them.
-void write_points(std::string& script, const std::vector<ChartLine>& lines, const std::vector<int>& threads) {
+void add_points(std::string& script, const std::vector<ChartLine>& lines, const std::vector<int>& threads) {
     std::vector<std::string> contestants;
     for (const ChartLine& line : lines) {
         const bool known =
@@ -123,23 +138,80 @@ void write_points(std::string& script, const std::vector<ChartLine>& lines, cons
             for (std::size_t y = 0; y < lines.size(); ++y) {
                 if (lines[y].contestant != contestants[c]) continue;
                 for (const BenchRow* row : lines[y].rows) {
-                    if (row->threads != threads[t]) continue;
-                    const auto [low, high] = std::minmax_element(row->runs_ms.begin(), row->runs_ms.end());
-                    script +=
-                        fmt::format("{:.4f} {} {:.4f} {:.4f}\n", median(row->runs_ms), y + 1, *low, *high);
+                    if (row->threads == threads[t])
+                        add_point(script, *row, point_height(y, t, threads.size()));
                 }
             }
             script += "EOD\n";
             const Style style = style_of(contestants[c]);
-            const int point = t == 0 && threads.size() > 1 ? style.hollow : style.filled;
             plot += fmt::format(
-                "{} $points_{}_{} using 1:2:3:4 with xerrorbars lw 1.6 ps 0.9 pt {} lc rgb '{}' title {}",
-                plot.empty() ? "plot" : ",", c, t, point, style.color,
-                quoted(
-                    fmt::format("{}, {} thread{}", contestants[c], threads[t], threads[t] == 1 ? "" : "s")));
+                "{} $points_{}_{} using 1:2:3:4 with xerrorbars lw 1.4 ps 0.8 pt {} lc rgb '{}' notitle",
+                plot.empty() ? "plot" : ",", c, t, t == 0 && threads.size() > 1 ? style.hollow : style.filled,
+                style.color);
         }
     }
     script += plot + '\n';
+}
+
+/// Canvas, axes and titles of a chart of `count` lines, `height` pixels high.
+std::string frame_commands(const std::vector<ChartLine>& lines, const std::vector<int>& threads,
+                           double height) {
+    const auto [low, high] = time_range(lines);
+    const auto from_top = [&](double px) { return 1 - px / height; };
+    std::string script = fmt::format(
+        "set terminal svg size 1160,{:.0f} dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
+        "set label {} at screen 0.5,{:.4f} center font ',17'\n"
+        "set lmargin screen 0.39\nset rmargin screen 0.85\nset tmargin screen {:.4f}\nset bmargin screen "
+        "{:.4f}\n"
+        "set logscale x\nset format x '%g'\nset tics nomirror\nunset ytics\nset border 1 lc rgb '#888888'\n"
+        "set grid xtics mxtics lt 1 lc rgb '#c8c8c8' lw 0.8, lt 1 lc rgb '#ececec' lw 0.5\n"
+        "set xlabel 'time in ms (logarithmic; further left is faster)'\n"
+        "set xrange [{:.4f}:{:.4f}]\nset yrange [{:.1f}:0.2]\n",
+        height, quoted(title_of(*lines[1].rows[0])), from_top(24), from_top(78), 84.0 / height, low, high,
+        static_cast<double>(lines.size()) + 0.8);
+    std::string all;
+    for (const int t : threads)
+        all += fmt::format("{}{}", all.empty() ? "" : " / ", t);
+    const std::string key = threads.size() == 1 ? fmt::format("threads: {}", threads[0])
+                                                : fmt::format("hollow: {} thread, filled: more", threads[0]);
+    script += fmt::format(
+        "set label 'Points: medians ({}). Bars: least to greatest run.' at screen 0.02,{:.4f} tc rgb "
+        "'#333333'\n"
+        "set label 'time / Obscura' at screen 0.865,{:.4f} tc rgb '#333333'\n"
+        "set label '{} threads' at screen 0.865,{:.4f} tc rgb '#333333'\n",
+        key, from_top(58), from_top(48), all, from_top(64));
+    return script;
+}
+
+/// What stands beside the points: scene headings, methods on the left, ratios on the right.
+std::string label_commands(const std::vector<BenchRow>& rows, const std::vector<ChartLine>& lines,
+                           double height) {
+    std::string script;
+    bool starred = false;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const ChartLine& line = lines[i];
+        if (line.contestant.empty()) {
+            script +=
+                fmt::format("set label {} at screen 0.02, first {} font ',14'\n", quoted(line.label), i + 1);
+            script += fmt::format(
+                "set arrow from screen 0.02, first {0} to screen 0.98, first {0} nohead lc rgb '#999999'\n",
+                static_cast<double>(i) + 0.45);
+            continue;
+        }
+        starred = starred || !line.rows[0]->same_work;
+        const char* color = style_of(line.contestant).color;
+        script += fmt::format("set label {} at screen 0.38, first {} right tc rgb '{}'\n", quoted(line.label),
+                              i + 1, color);
+        script += fmt::format("set label {} at screen 0.865, first {} tc rgb '{}'\n",
+                              quoted(ratios_text(rows, line)), i + 1, color);
+    }
+    if (starred) {
+        script += fmt::format(
+            "set label '* not the whole work, or another result: see bench/README.md' at screen 0.02,{:.4f} "
+            "tc rgb '#333333'\n",
+            16.0 / height);
+    }
+    return script;
 }
 
 bool in_path(const char* program) {
@@ -171,60 +243,9 @@ void run_gnuplot(const std::string& script, const std::filesystem::path& file) {
 std::string chart_script(const std::vector<BenchRow>& rows, Workload workload, const BenchOptions& options) {
     const std::vector<ChartLine> lines = lines_of(rows, workload);
     if (lines.empty()) return {};
-    const double height = 190.0 + 19.0 * static_cast<double>(lines.size());
-    const auto [low, high] = time_range(lines);
-    const double count = static_cast<double>(lines.size());
-    const BenchRow& first = *lines[1].rows[0];
-    std::string script;
-    const auto add = [&](const std::string& line) { script += line + '\n'; };
-    add(fmt::format(
-        "set terminal svg size 1120,{:.0f} dynamic noenhanced font 'sans-serif,13' background '#ffffff'",
-        height));
-    add(fmt::format("set multiplot title {} font ',16'", quoted(title_of(first))));
-    add("set lmargin screen 0.36\nset rmargin screen 0.86");
-    add(fmt::format("set tmargin screen {:.4f}\nset bmargin screen {:.4f}", 1 - 70.0 / height,
-                    120.0 / height));
-    add("set logscale x\nset xlabel 'time in ms, logarithmic; left is faster; bars: least to greatest of the "
-        "runs'");
-    add(fmt::format("set xrange [{:.4f}:{:.4f}]\nset yrange [{:.1f}:0.2]", low, high, count + 0.8));
-    add("set format x '%g'\nset grid xtics mxtics lc rgb '#cccccc' lw 0.6, lc rgb '#eeeeee' lw 0.4\nset "
-        "border 1 lc rgb '#888888'");
-    add("set tics nomirror\nunset ytics");
-    add(fmt::format("set key at screen 0.5,{:.4f} center bottom horizontal maxcols 4 samplen 1",
-                    12.0 / height));
-    std::string thread_text;
-    for (const int t : options.threads)
-        thread_text += fmt::format("{}{}", thread_text.empty() ? "" : " / ", t);
-    add(fmt::format("set label {} at screen 0.87,{:.4f} left tc rgb '#333333'", quoted("time / Obscura's, "),
-                    1 - 44.0 / height));
-    add(fmt::format("set label {} at screen 0.87,{:.4f} left tc rgb '#333333'",
-                    quoted(thread_text + " threads"), 1 - 60.0 / height));
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-        const ChartLine& line = lines[i];
-        const bool heading = line.contestant.empty();
-        add(fmt::format("set label {} at graph -0.01, first {} right {}", quoted(line.label), i + 1,
-                        heading ? "font ',14' tc rgb '#000000'"
-                                : fmt::format("tc rgb '{}'", style_of(line.contestant).color)));
-        if (heading && i > 0) {
-            add(fmt::format(
-                "set arrow from screen 0.02, first {0} to screen 0.98, first {0} nohead lc rgb '#bbbbbb'",
-                static_cast<double>(i) + 0.45));
-        }
-        if (!heading) {
-            add(fmt::format("set label {} at screen 0.87, first {} left tc rgb '{}'",
-                            quoted(ratios_text(rows, line)), i + 1, style_of(line.contestant).color));
-        }
-    }
-    if (std::any_of(lines.begin(), lines.end(),
-                    [](const ChartLine& line) { return !line.rows.empty() && !line.rows[0]->same_work; })) {
-        add(
-            fmt::format("set label '* not the whole work, or another result: see bench/README.md' at screen "
-                        "0.02,{:.4f} left "
-                        "tc rgb '#333333'",
-                        58.0 / height));
-    }
-    write_points(script, lines, options.threads);
-    add("unset multiplot");
+    const double height = 170.0 + 20.0 * static_cast<double>(lines.size());
+    std::string script = frame_commands(lines, options.threads, height) + label_commands(rows, lines, height);
+    add_points(script, lines, options.threads);
     return script;
 }
 

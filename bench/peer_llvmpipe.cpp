@@ -300,7 +300,7 @@ std::vector<Job> jobs_of(const LlvmpipeState& s) {
         {Workload::depth, "back faces culled", true,
          timed([](const State& t) { draw_depth(t, t.first, Cull::back); }), read_one},
         {Workload::dual_depth, "two-pass depth peel", true, timed(draw_peel), read_both},
-        {Workload::dual_depth, "nearest front + nearest back, two passes", false, timed([](const State& t) {
+        {Workload::dual_depth, "nearest front + nearest back", false, timed([](const State& t) {
              draw_depth(t, t.first, Cull::back);
              draw_depth(t, t.second, Cull::front);
          }),

@@ -1,62 +1,75 @@
-// Loops over 16 lanes that the compiler turns into vector code; one object file per instruction set.
+// Sixteen pixels through Phong's formula; one object file per instruction set.
 
 #include "bench/phong.h"
+#include "core/simd.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {
 
-float positive(float x) {
-    return x > 0.0f ? x : 0.0f;
+/// Sixteen vectors.
+struct Vec16 {
+    F32 x, y, z;
+};
+
+OBSCURA_INLINE Vec16 splat3(const float* v) {
+    return {splat(v[0]), splat(v[1]), splat(v[2])};
+}
+
+OBSCURA_INLINE F32 dot(const Vec16& a, const Vec16& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+OBSCURA_INLINE Mask hits(const PhongPacket& p) {
+    return not_negative(load(reinterpret_cast<const std::int32_t*>(p.triangle)));
+}
+
+/// Vertex normals weighted by the hit's barycentric coordinates; one component.
+OBSCURA_INLINE F32 blend(const float* normals, const I32& index, const F32& w, const F32& u, const F32& v) {
+    return w * gather(normals, index) + u * gather(normals + 3, index) + v * gather(normals + 6, index);
 }
 
 void surface(const PhongScene& scene, PhongPacket& p) noexcept {
-    for (int i = 0; i < 16; ++i) {
-        const bool hit = p.triangle[i] != no_hit;
-        const float* n = scene.normals + (hit ? p.triangle[i] : 0u) * std::uint64_t{9};
-        const float u = p.u[i], v = p.v[i], w = 1.0f - u - v;
-        const float x = w * n[0] + u * n[3] + v * n[6];
-        const float y = w * n[1] + u * n[4] + v * n[7];
-        const float z = w * n[2] + u * n[5] + v * n[8];
-        const float scale = 1.0f / __builtin_sqrtf(x * x + y * y + z * z + 1e-20f);
-        p.normal_x[i] = x * scale;
-        p.normal_y[i] = y * scale;
-        p.normal_z[i] = z * scale;
-    }
-    for (int i = 0; i < 16; ++i) {
-        const float dot = p.normal_x[i] * scene.to_light[0] + p.normal_y[i] * scene.to_light[1] +
-                          p.normal_z[i] * scene.to_light[2];
-        p.n_dot_l[i] = p.triangle[i] != no_hit ? positive(dot) : 0.0f;
-        p.shadow_x[i] = scene.eye[0] + p.t[i] * p.dir_x[i] + scene.offset_m * p.normal_x[i];
-        p.shadow_y[i] = scene.eye[1] + p.t[i] * p.dir_y[i] + scene.offset_m * p.normal_y[i];
-        p.shadow_z[i] = scene.eye[2] + p.t[i] * p.dir_z[i] + scene.offset_m * p.normal_z[i];
-    }
+    // Background lanes read the first triangle and are blanked below.
+    const Mask hit = hits(p);
+    const I32 triangle = select(hit, load(reinterpret_cast<const std::int32_t*>(p.triangle)), splat(0));
+    const I32 index = shift_left<3>(triangle) + triangle;
+    const F32 u = load(p.u), v = load(p.v), w = splat(1.0f) - u - v;
+    Vec16 n{blend(scene.normals, index, w, u, v), blend(scene.normals + 1, index, w, u, v),
+            blend(scene.normals + 2, index, w, u, v)};
+    const F32 scale = splat(1.0f) / sqrt(dot(n, n) + splat(1e-20f));
+    n = {n.x * scale, n.y * scale, n.z * scale};
+    store(p.normal_x, n.x);
+    store(p.normal_y, n.y);
+    store(p.normal_z, n.z);
+    store(p.n_dot_l, select(hit, max(dot(n, splat3(scene.to_light)), splat(0.0f)), splat(0.0f)));
+
+    const F32 t = load(p.t), offset = splat(scene.offset_m);
+    store(p.shadow_x, splat(scene.eye[0]) + t * load(p.dir_x) + offset * n.x);
+    store(p.shadow_y, splat(scene.eye[1]) + t * load(p.dir_y) + offset * n.y);
+    store(p.shadow_z, splat(scene.eye[2]) + t * load(p.dir_z) + offset * n.z);
 }
 
 void shade(const PhongScene& scene, PhongPacket& p) noexcept {
-    for (int i = 0; i < 16; ++i) {
-        // Mirror the light about the normal and compare with the way back to the eye.
-        const float twice = 2.0f * p.n_dot_l[i];
-        const float rx = twice * p.normal_x[i] - scene.to_light[0];
-        const float ry = twice * p.normal_y[i] - scene.to_light[1];
-        const float rz = twice * p.normal_z[i] - scene.to_light[2];
-        const float dx = p.dir_x[i], dy = p.dir_y[i], dz = p.dir_z[i];
-        const float inverse_length = 1.0f / __builtin_sqrtf(dx * dx + dy * dy + dz * dz);
-        float shine = positive(-(rx * dx + ry * dy + rz * dz) * inverse_length);
-        shine *= shine;
-        shine *= shine;
-        shine *= shine;
-        shine *= shine;
-        shine *= shine;
-        const bool facing = p.n_dot_l[i] > 0.0f;
-        const float diffuse = p.lit[i] * p.n_dot_l[i];
-        const float glint = facing ? p.lit[i] * scene.specular * shine : 0.0f;
-        const float seen = p.triangle[i] != no_hit ? 1.0f : 0.0f;
-        p.r[i] =
-            seen * (scene.albedo[0] * (scene.ambient[0] + scene.sun[0] * diffuse) + scene.sun[0] * glint);
-        p.g[i] =
-            seen * (scene.albedo[1] * (scene.ambient[1] + scene.sun[1] * diffuse) + scene.sun[1] * glint);
-        p.b[i] =
-            seen * (scene.albedo[2] * (scene.ambient[2] + scene.sun[2] * diffuse) + scene.sun[2] * glint);
+    // Mirror the light about the normal and compare with the way back to the eye.
+    const Vec16 n{load(p.normal_x), load(p.normal_y), load(p.normal_z)};
+    const Vec16 dir{load(p.dir_x), load(p.dir_y), load(p.dir_z)};
+    const Vec16 light = splat3(scene.to_light);
+    const F32 n_dot_l = load(p.n_dot_l), zero = splat(0.0f);
+    const F32 twice = n_dot_l + n_dot_l;
+    const Vec16 mirrored{twice * n.x - light.x, twice * n.y - light.y, twice * n.z - light.z};
+    F32 shine = max(zero - dot(mirrored, dir) / sqrt(dot(dir, dir)), zero);
+    for (int i = 0; i < 5; ++i)
+        shine = shine * shine;
+
+    const F32 lit = load(p.lit);
+    const F32 diffuse = lit * n_dot_l;
+    const F32 glint = select(less(zero, n_dot_l), lit * splat(scene.specular) * shine, zero);
+    const Mask hit = hits(p);
+    float* const out[3] = {p.r, p.g, p.b};
+    for (int c = 0; c < 3; ++c) {
+        const F32 sun = splat(scene.sun[c]);
+        const F32 color = splat(scene.albedo[c]) * (splat(scene.ambient[c]) + sun * diffuse) + sun * glint;
+        store(out[c], select(hit, color, zero));
     }
 }
 
