@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/scene_file.h"
+#include "app/scene_schema.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -167,6 +168,14 @@ std::string repeated(const std::string& piece, int count) {
     for (int i = 0; i < count; ++i)
         all += piece;
     return all;
+}
+
+TEST(SceneHints, NameTheNearestKeyThatIsNear) {
+    EXPECT_EQ(nearest("vfov", {"eye_m", "vfov_deg"}), std::nullopt);
+    EXPECT_EQ(nearest("vfv_de", {"eye_m", "vfov_deg", "vfov"}), "vfov_deg");
+    EXPECT_EQ(nearest("ab", {"ba", "xy"}), "ba") << "swapped neighbours are one edit";
+    EXPECT_EQ(nearest("ab", {"cd"}), std::nullopt);
+    EXPECT_EQ(nearest(std::string(100000, 'a'), {std::string(64, 'a')}), std::nullopt);
 }
 
 // toml++ 3.3 overflows its stack on the first two.
