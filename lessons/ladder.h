@@ -1,0 +1,17 @@
+#pragma once
+// One function per lesson, each in a file of its own.
+
+#include "core/image.h"
+#include "core/isa.h"
+#include "core/pixel.h"
+
+namespace obscura {
+
+constexpr int lesson_width = 1600, lesson_height = 1000;
+
+Image<Rgb8> lesson_1_edge_functions(const Exec& exec);
+Image<Rgb8> lesson_2_depth(const Exec& exec);
+Image<Rgb8> lesson_3_layers(const Exec& exec);
+Image<Rgb8> lesson_4_intervals(const Exec& exec);
+
+}  // namespace obscura
