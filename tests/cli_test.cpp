@@ -11,29 +11,6 @@
 namespace obscura::test {
 namespace {
 
-const char* const small_scene = R"(format = 1
-[camera]
-eye_m = [0, 2, 8]
-look_at_m = [0, 1, 0]
-vfov_deg = 35
-[[mesh]]
-id = "cube"
-shape = "box"
-size_m = 2
-material = "stone"
-[material.stone]
-base_color = [0.6, 0.55, 0.5]
-[[light]]
-id = "lamp"
-type = "directional"
-azimuth_deg = 120
-elevation_deg = 30
-[shadow.lamp]
-resolution = 256
-[render]
-size_px = [64, 48]
-)";
-
 /// Commands as the program itself lists them.
 std::vector<std::string> listed_commands() {
     const std::string help = Program({"--help"}).run().out;

@@ -19,6 +19,30 @@
 
 namespace obscura::test {
 
+/// A scene that renders in milliseconds: a box under a lamp with a shadow map, before the sky.
+inline const char* const small_scene = R"(format = 1
+[camera]
+eye_m = [0, 2, 8]
+look_at_m = [0, 1, 0]
+vfov_deg = 35
+[[mesh]]
+id = "cube"
+shape = "box"
+size_m = 2
+material = "stone"
+[material.stone]
+base_color = [0.6, 0.55, 0.5]
+[[light]]
+id = "lamp"
+type = "directional"
+azimuth_deg = 120
+elevation_deg = 30
+[shadow.lamp]
+resolution = 256
+[render]
+size_px = [64, 48]
+)";
+
 /// What a run left behind. `code` is the exit code, or 1000 + n when signal n killed the process.
 struct Outcome {
     int code = -1;

@@ -1,0 +1,357 @@
+// obscura render from outside: outputs, frames, crops, overrides, reports, and what it does when things go
+// wrong.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "core/image_io.h"
+#include "core/isa.h"
+#include "json_reader.h"
+#include "program.h"
+
+namespace obscura::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// A folder with the small scene in it.
+struct SceneFolder : Folder {
+    explicit SceneFolder(const std::string& more = "") { write("s.toml", small_scene + more); }
+};
+
+Image<Rgba8> png(const std::filesystem::path& file) {
+    return decode_png(file_text(file), file.string());
+}
+
+template <class T>
+Image<T> pfm(const std::filesystem::path& file) {
+    return std::get<Image<T>>(decode_pfm(file_text(file), file.string()));
+}
+
+TEST(Render, WithoutFlagsThePictureIsNamedAfterTheScene) {
+    const SceneFolder folder;
+    const Outcome run = run_in(folder, {"render", "s.toml"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(folder.listing(), (Names{"s.png", "s.toml"}));
+    const Image<Rgba8> picture = png(folder / "s.png");
+    EXPECT_EQ(picture.width, 64);
+    EXPECT_EQ(picture.height, 48);
+    EXPECT_NE(picture(32, 24), picture(0, 0)) << "nothing is to be seen";
+}
+
+TEST(Render, ExistingFilesAreKeptUnlessToldOtherwise) {
+    const SceneFolder folder;
+    folder.write("s.png", "mine");
+    const Outcome refused = run_in(folder, {"render", "s.toml"});
+    EXPECT_EQ(refused.code, 5);
+    EXPECT_EQ(refused.err, "obscura: error: s.png: already exists (--overwrite replaces it)\n");
+    EXPECT_EQ(file_text(folder / "s.png"), "mine");
+    EXPECT_EQ(run_in(folder, {"render", "s.toml", "--overwrite"}).code, 0);
+    EXPECT_EQ(png(folder / "s.png").width, 64);
+}
+
+TEST(Render, SameBytesForEveryThreadCountAndInstructionSet) {
+    const SceneFolder folder;
+    ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q"}).code, 0);
+    const std::string expected = file_text(folder / "s.png");
+    ASSERT_FALSE(expected.empty());
+    for (const Isa isa : supported_isas()) {
+        for (const char* threads : {"0", "1", "2", "3", "7"}) {
+            const std::string name(isa_name(isa));
+            ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q", "-o", "t.png", "--overwrite", "--isa", name,
+                                      "-t", threads})
+                          .code,
+                      0);
+            EXPECT_TRUE(file_text(folder / "t.png") == expected) << name << ", " << threads << " threads";
+        }
+    }
+}
+
+TEST(Render, ACropIsThatPartOfTheWholePicture) {
+    const SceneFolder folder;
+    ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q", "-o", "a.pfm", "--aov", "depth"}).code, 0);
+    ASSERT_EQ(
+        run_in(folder, {"render", "s.toml", "-q", "-o", "c.pfm", "--aov", "depth", "--crop", "17,9,50,41"})
+            .code,
+        0);
+    const Image<Vec3f> whole = pfm<Vec3f>(folder / "a.pfm"), part = pfm<Vec3f>(folder / "c.pfm");
+    const Image<float> depth = pfm<float>(folder / "a.depth.pfm"),
+                       part_depth = pfm<float>(folder / "c.depth.pfm");
+    ASSERT_EQ(part.width, 33);
+    ASSERT_EQ(part.height, 32);
+    int differences = 0;
+    for (int y = 0; y < part.height; ++y) {
+        for (int x = 0; x < part.width; ++x) {
+            if (part(x, y) != whole(x + 17, y + 9)) ++differences;
+            if (part_depth(x, y) != depth(x + 17, y + 9)) ++differences;
+        }
+    }
+    EXPECT_EQ(differences, 0);
+}
+
+TEST(Render, SizeSamplesAndDefinesChangeThePicture) {
+    const SceneFolder folder;
+    const auto bytes = [&](const std::string& name, std::vector<std::string> flags) {
+        Names line{"render", "s.toml", "-q", "-o", name};
+        line.insert(line.end(), flags.begin(), flags.end());
+        const Outcome run = run_in(folder, line);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return file_text(folder / name);
+    };
+    const std::string plain = bytes("a.png", {});
+    EXPECT_NE(bytes("b.png", {"--samples", "1"}), plain);
+    EXPECT_EQ(bytes("c.png", {"--samples", "4"}), plain);
+    EXPECT_NE(bytes("d.png", {"-D", "camera.vfov_deg=50"}), plain);
+    EXPECT_NE(bytes("e.png", {"-D", "material.stone.base_color=[1,0,0]", "-D", "light.lamp.azimuth_deg=10"}),
+              plain);
+    bytes("f.png", {"--size", "80x020"});
+    EXPECT_EQ(png(folder / "f.png").width, 80);
+    EXPECT_EQ(png(folder / "f.png").height, 20);
+}
+
+TEST(Render, FramesFillTheHashes) {
+    const SceneFolder folder(
+        "[frames]\nrange = \"1-9x2\"\n[[frames.camera]]\nframe = 1\nvfov_deg = 30\n"
+        "[[frames.camera]]\nframe = 9\nvfov_deg = 50\n");
+    EXPECT_EQ(run_in(folder, {"render", "s.toml", "-o", "f_###.png", "--frames", "9,1-5x4,5"}).code, 0);
+    EXPECT_EQ(folder.listing(), (Names{"f_001.png", "f_005.png", "f_009.png", "s.toml"}));
+    EXPECT_NE(file_text(folder / "f_001.png"), file_text(folder / "f_009.png"));
+    // A frame is the same whether it comes alone or after others.
+    EXPECT_EQ(run_in(folder, {"render", "s.toml", "-o", "alone.png", "--frames", "9"}).code, 0);
+    EXPECT_EQ(file_text(folder / "alone.png"), file_text(folder / "f_009.png"));
+
+    const Outcome outside = run_in(folder, {"render", "s.toml", "-o", "x###.png", "--frames", "8-12"});
+    EXPECT_EQ(outside.code, 2);
+    EXPECT_EQ(outside.err, "obscura: error: --frames: frame 12 is not one of the scene's frames (1-9x2)\n");
+    const Outcome unnumbered = run_in(folder, {"render", "s.toml", "-o", "x.png"});
+    EXPECT_EQ(unnumbered.code, 2);
+    EXPECT_EQ(unnumbered.err,
+              "obscura: error: 'x.png': several frames need #### in the name, for the frame number\n");
+    EXPECT_EQ(folder.listing().size(), 5u);
+}
+
+TEST(Render, TheScenesOutputListIsWritten) {
+    const SceneFolder folder(
+        "[[output]]\nfile = \"look.png\"\n[[output]]\naov = \"normal\"\nfile = \"n.pfm\"\n");
+    EXPECT_EQ(run_in(folder, {"render", "s.toml", "-q"}).code, 0);
+    EXPECT_EQ(folder.listing(), (Names{"look.png", "n.pfm", "s.toml"}));
+    EXPECT_EQ(run_in(folder, {"render", "s.toml", "-q", "-o", "only.png"}).code, 0);
+    EXPECT_EQ(folder.listing(), (Names{"look.png", "n.pfm", "only.png", "s.toml"}));
+}
+
+TEST(Render, ChannelsHaveTheirMeaning) {
+    const SceneFolder folder;
+    const std::string all = "depth,normal,albedo,object,shadow";
+    ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q", "--aov", all}).code, 0);
+    const Outcome mapped =
+        run_in(folder, {"render", "s.toml", "-o", "m.png", "--aov", all, "--aov-format", "png"});
+    ASSERT_EQ(mapped.code, 0) << mapped.err;
+    EXPECT_NE(mapped.err.find("m.depth.png (0 = "), std::string::npos) << mapped.err;
+
+    // The middle of the picture is the box, its corner the sky.
+    const Image<float> depth = pfm<float>(folder / "s.depth.pfm"),
+                       object = pfm<float>(folder / "s.object.pfm");
+    EXPECT_NEAR(depth(32, 32), 7.1, 0.2);
+    EXPECT_TRUE(std::isinf(depth(0, 0)));
+    EXPECT_EQ(object(32, 24), 0.0f);
+    EXPECT_EQ(object(0, 0), -1.0f);
+    const Vec3f normal = pfm<Vec3f>(folder / "s.normal.pfm")(32, 32);
+    EXPECT_NEAR(normal.z, 1.0, 1e-6);
+    EXPECT_EQ(png(folder / "m.normal.png")(32, 32), (Rgba8{128, 128, 255, 255}));
+    EXPECT_EQ(png(folder / "m.normal.png")(0, 0), (Rgba8{128, 128, 128, 255}));
+    EXPECT_EQ(png(folder / "m.depth.png")(0, 0).r, 255);
+    EXPECT_LT(png(folder / "m.depth.png")(32, 32).r, 64);
+    EXPECT_EQ(png(folder / "m.object.png")(0, 0), (Rgba8{0, 0, 0, 255}));
+    EXPECT_NE(png(folder / "m.object.png")(32, 24), (Rgba8{0, 0, 0, 255}));
+    EXPECT_EQ(png(folder / "m.shadow.png")(0, 0).r, 255);
+    const Vec3f albedo = pfm<Vec3f>(folder / "s.albedo.pfm")(32, 24);
+    EXPECT_GT(albedo.x, albedo.z);
+}
+
+TEST(Render, StatisticsAreJsonWithTheStatedMembers) {
+    const SceneFolder folder;
+    ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q", "--stats-json", "s.json", "--isa", "ref", "-t", "2",
+                              "--aov", "depth"})
+                  .code,
+              0);
+    const Json stats = parse_json(file_text(folder / "s.json"));
+    EXPECT_EQ(stats.at("schema").number, 1);
+    EXPECT_EQ(stats.at("scene").text, "s.toml");
+    EXPECT_EQ(stats.at("isa").text, "ref");
+    EXPECT_EQ(stats.at("threads").number, 2);
+    EXPECT_EQ(stats.at("width_px").number, 64);
+    EXPECT_GT(stats.at("total_s").number, 0);
+    EXPECT_GT(stats.at("memory").at("estimate_bytes").number, 0);
+    EXPECT_GT(stats.at("memory").at("peak_resident_bytes").number, 1e6);
+    const Json& frame = stats.at("frames").list.at(0);
+    EXPECT_EQ(frame.at("frame").number, 1);
+    EXPECT_GT(frame.at("seconds").at("render").number, 0);
+    EXPECT_EQ(frame.at("counts").at("triangles").number, 12);
+    ASSERT_EQ(frame.at("files").list.size(), 2u);
+    EXPECT_EQ(frame.at("files").list[1].at("file").text, "s.depth.pfm");
+    EXPECT_EQ(frame.at("files").list[0].at("bytes").number,
+              static_cast<double>(file_text(folder / "s.png").size()));
+}
+
+TEST(Render, MessagesFitTheirListener) {
+    const SceneFolder folder;
+    EXPECT_EQ(run_in(folder, {"render", "s.toml", "-q"}).err, "");
+    const std::string lines = run_in(folder, {"render", "s.toml", "-o", "b.png", "--size", "640x480"}).err;
+    EXPECT_EQ(lines.find('\x1b'), std::string::npos) << "control sequences in a file";
+    EXPECT_EQ(lines.find('\r'), std::string::npos);
+    EXPECT_NE(lines.find("100 %"), std::string::npos) << lines;
+    EXPECT_NE(lines.find("b.png"), std::string::npos) << lines;
+    const std::string verbose = run_in(folder, {"render", "s.toml", "-v", "-o", "c.png"}).err;
+    EXPECT_NE(verbose.find("shadow maps"), std::string::npos) << verbose;
+}
+
+TEST(Render, MistakesAreToldBeforeTheWork) {
+    const SceneFolder folder;
+    std::filesystem::create_directory(folder / "dir.png");
+    const std::string set = isa_supported(Isa::avx512bw) ? "neon" : "avx512bw";
+    struct Case {
+        Names flags;
+        int code;
+        std::string message;
+    };
+    for (const Case& c : std::vector<Case>{
+             {{"-o", "none/x.png"}, 5, "none/x.png: cannot be created in 'none': No such file or directory"},
+             {{"-o", "dir.png"}, 5, "dir.png: is a directory"},
+             {{"--stats-json", "none/s.json"}, 5, "none/s.json: cannot be created in 'none'"},
+             {{"-o", "x.jpg"}, 2, "'x.jpg': pictures end in .png (8-bit sRGB) or .pfm (linear float)"},
+             {{"--isa", set}, 2, "--isa: "},
+             {{"--crop", "0,0,65,48"}, 2, "--crop: '0,0,65,48' is not a rectangle"},
+             {{"--crop", "-1,0,5,5"}, 2, "--crop: '-1,0,5,5' is not a rectangle"},
+             {{"--aov", "dept"}, 2, "--aov: 'dept' is not one of"},
+             {{"--aov-format", "tiff"}, 2, "--aov-format: 'tiff' is not png or pfm"},
+             {{"-t", "-1"}, 2, "--threads: '-1' is not a whole number"},
+             {{"-D", "camera.vfov=3"}, 3, "-D camera.vfov=3: "},
+             {{"-D", "camera"}, 3, "-D camera: "},
+             {{"--limit-memory", "1"}, 4, "s.toml: needs about "}}) {
+        Names line{"render", "s.toml"};
+        line.insert(line.end(), c.flags.begin(), c.flags.end());
+        const Outcome run = run_in(folder, line);
+        EXPECT_EQ(run.code, c.code) << c.message << "\n" << run.err;
+        EXPECT_TRUE(run.err.starts_with("obscura: error: " + c.message))
+            << run.err << "instead of " << c.message;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+    EXPECT_EQ(folder.listing(), (Names{"dir.png", "s.toml"}));
+}
+
+TEST(Render, ReadOnlyFoldersAreRefusedBeforeTheWork) {
+    if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+    const SceneFolder folder;
+    std::filesystem::create_directory(folder / "ro");
+    std::filesystem::permissions(folder / "ro",
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    const Outcome run = run_in(folder, {"render", "s.toml", "-o", "ro/x.png"});
+    EXPECT_EQ(run.code, 5) << run.err;
+    std::filesystem::permissions(folder / "ro", std::filesystem::perms::owner_all);
+}
+
+TEST(Render, AFullDiskIsAnOutputError) {
+    if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+    const SceneFolder folder;
+    std::filesystem::create_symlink("/dev/full", folder / "x.png");
+    const Outcome run = run_in(folder, {"render", "s.toml", "-q", "-o", "x.png"});
+    EXPECT_EQ(run.code, 5);
+    EXPECT_EQ(run.err, "obscura: error: x.png: cannot be written: No space left on device\n");
+    EXPECT_EQ(folder.listing(), (Names{"s.toml", "x.png"}));
+}
+
+TEST(Render, TooLittleMemoryIsALimit) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "sanitizers reserve more than any limit";
+#endif
+    const SceneFolder folder;
+    Program program({"render", "s.toml", "--size", "4000x3000", "--samples", "1", "-q"});
+    program.folder = folder.path;
+    program.memory_bytes = rlim_t{160} << 20;
+    const Outcome run = program.run();
+    EXPECT_EQ(run.code, 4) << run.err;
+    EXPECT_TRUE(run.err.starts_with("obscura: error: out of memory")) << run.err;
+    EXPECT_EQ(folder.listing(), (Names{"s.toml"}));
+}
+
+/// Long enough to be interrupted on any machine: it is stopped at its first sign of life.
+Names long_render(const std::string& output) {
+    return {"render", "s.toml",         "--size", "4000x3000", "--samples", "16", "--isa",
+            "ref",    "--limit-memory", "100000", "-t",        "1",         "-o", output};
+}
+
+/// Waits for the first line of progress. False when the program ended before.
+bool wait_for_progress(const Program& program) {
+    while (program.running()) {
+        if (program.err_so_far().find('%') != std::string::npos) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return false;
+}
+
+TEST(Render, SignalsLeaveNoFile) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const SceneFolder folder;
+        Program program(long_render("x.png"));
+        program.folder = folder.path;
+        program.start();
+        EXPECT_TRUE(wait_for_progress(program));
+        program.send(signal);
+        const Outcome run = program.wait();
+        EXPECT_EQ(run.code, 128 + signal) << run.err;
+        EXPECT_EQ(run.err.find("error"), std::string::npos) << run.err;
+        EXPECT_EQ(folder.listing(), (Names{"s.toml"}));
+    }
+}
+
+TEST(Render, AKilledRunLeavesTheOldFileAlone) {
+    const SceneFolder folder;
+    ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q", "-o", "x.png"}).code, 0);
+    const std::string before = file_text(folder / "x.png");
+    Names line = long_render("x.png");
+    line.push_back("--overwrite");
+    Program program(line);
+    program.folder = folder.path;
+    program.start();
+    EXPECT_TRUE(wait_for_progress(program));
+    program.send(SIGKILL);
+    EXPECT_EQ(program.wait().code, 1000 + SIGKILL);
+    EXPECT_EQ(file_text(folder / "x.png"), before);
+}
+
+TEST(Render, TwoProcessesOneOutputGiveOneWholeFile) {
+    const SceneFolder folder;
+    ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q", "-o", "one.png"}).code, 0);
+    const std::string expected = file_text(folder / "one.png");
+    for (int round = 0; round < 5; ++round) {
+        Program a({"render", "s.toml", "-q", "-o", "x.png", "--overwrite"});
+        Program b({"render", "s.toml", "-q", "-o", "x.png", "--overwrite"});
+        a.folder = b.folder = folder.path;
+        a.start();
+        b.start();
+        EXPECT_EQ(a.wait().code, 0);
+        EXPECT_EQ(b.wait().code, 0);
+        EXPECT_TRUE(file_text(folder / "x.png") == expected);
+        EXPECT_EQ(folder.listing(), (Names{"one.png", "s.toml", "x.png"}));
+    }
+}
+
+TEST(Render, AClosedStandardOutputDoesNotTouchTheFiles) {
+    const SceneFolder folder;
+    Program program({"render", "s.toml", "-q"});
+    program.folder = folder.path;
+    program.out_closed = true;
+    EXPECT_EQ(program.run().code, 0);
+    EXPECT_EQ(png(folder / "s.png").width, 64);
+}
+
+}  // namespace
+}  // namespace obscura::test
