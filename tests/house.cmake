@@ -33,3 +33,7 @@ house_test(room_walls ${here}/room_walls.sh ${CMAKE_CXX_COMPILER} ${CMAKE_BINARY
 # The two commands, and what cmake --install leaves behind.
 house_test(launcher ${here}/launcher_test.sh ${CMAKE_SOURCE_DIR})
 house_test(install ${here}/install_test.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR})
+
+# Debug and clang++ builds render the same bytes. Minutes when nothing is cached.
+house_test(other_builds ${here}/determinism_builds.sh $<TARGET_FILE:obscura>)
+set_tests_properties(House.other_builds PROPERTIES TIMEOUT 1800 RUN_SERIAL ON)
