@@ -1,0 +1,88 @@
+#pragma once
+// The multiresolution hierarchy (MH): a sparse tree of depths, one value per node, in which every texel finds
+// a depth of its own interval by going down as far as the tree goes and taking the last value met.
+//
+// Scandolo, Bauszat, Eisemann 2016, section 3. Works for quadtrees (2^2 children) and octrees (2^3).
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "core/types.h"
+
+namespace obscura {
+
+/// What stands in a child's place. The numbers are those of the serialised tree (paper, section 3.2).
+enum class ChildKind : std::uint32_t {
+    none = 0,   ///< the parent's value holds
+    leaf = 1,   ///< a value, no children
+    empty = 2,  ///< no value of its own, children
+    full = 3,   ///< a value and children
+};
+
+/// A node of the tree under construction; its children that exist stand together, in child order.
+struct MultiresNode {
+    float value = 0;                ///< leaf and full: the stored depth
+    std::uint32_t kinds = 0;        ///< two bits per child
+    std::uint64_t first_child = 0;  ///< index into MultiresTree::nodes
+    ChildKind child(int i) const { return static_cast<ChildKind>(kinds >> (2 * i) & 3u); }
+};
+
+/// Numbers that papers compare.
+struct MultiresCounts {
+    std::uint64_t full = 0, empty = 0, leaf = 0;
+    friend bool operator==(const MultiresCounts&, const MultiresCounts&) = default;
+};
+
+/// A tree over 2^levels texels a side in `dimensions` dimensions. The root always has a value.
+struct MultiresTree {
+    int dimensions = 2;
+    int levels = 0;  ///< depth of the texels below the root
+    MultiresNode root;
+    DepthInterval root_interval;
+    std::vector<MultiresNode> nodes;  ///< groups of siblings, in the order they were finished
+};
+
+MultiresCounts count_nodes(const MultiresTree& tree);
+
+/// Collects a tree from its finished parts, children before parents. One of these per task; parts are merged
+/// in the order of their place in the tree, so the result does not depend on how the work was cut.
+template <int dimensions>
+class MultiresBuilder {
+  public:
+    static constexpr int children = 1 << dimensions;
+
+    /// A finished part of the tree: its interval and its root, whose value is set by the parent.
+    struct Part {
+        DepthInterval interval;
+        std::uint32_t kinds = 0;
+        std::uint64_t first_child = 0;
+    };
+
+    static Part texel(DepthInterval interval) { return {interval, 0, 0}; }
+
+    /// The combine step: siblings to their parent. Children that the parent's value covers disappear, or stay
+    /// as empty nodes if something hangs below them; the others get a value of their own.
+    Part join(const Part (&child)[children]);
+
+    /// Appends another builder's nodes; returns what to add to its parts' first_child.
+    std::uint64_t append(const MultiresBuilder& other);
+
+    std::vector<MultiresNode> nodes;
+};
+
+extern template class MultiresBuilder<2>;
+extern template class MultiresBuilder<3>;
+
+/// Bottom-up construction over a square power-of-two picture of intervals: the definition that the
+/// output-sensitive construction must equal.
+MultiresTree build_bottom_up(ImageView<const DepthInterval> intervals);
+
+/// Top-down construction (paper, algorithm 1, made lossless: see multires.cpp): each node takes the depth
+/// that most texels of its square can take. O(n log n) for n texels; for comparison.
+MultiresTree build_top_down(ImageView<const DepthInterval> intervals);
+
+/// Value of texel (x, y) by plain descent: the oracle of every faster lookup.
+float value_at(const MultiresTree& tree, std::uint32_t x, std::uint32_t y);
+
+}  // namespace obscura

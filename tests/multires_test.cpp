@@ -1,0 +1,125 @@
+// The hierarchy against its definition: losslessness, the corollary of inner nodes, known small cases.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "hierarchy/combine.h"
+#include "hierarchy/multires.h"
+#include "raster/interval_map.h"
+#include "raster/view.h"
+#include "raster_solids.h"
+
+namespace obscura {
+namespace {
+
+Image<DepthInterval> scene_intervals(std::uint32_t seed, int side, bool open) {
+    const Mesh mesh = solids::random_solids(seed, 40, open, false);
+    const LightView view = orthographic_light_view(bounds_of(mesh), normalize(Vec3d{0.3, -1, 0.2}), side);
+    return interval_map(mesh, view, {}, Exec{});
+}
+
+Image<DepthInterval> random_intervals(std::uint32_t seed, int side) {
+    std::mt19937 rng(seed);
+    std::uniform_int_distribution<int> step(0, 12);
+    Image<DepthInterval> map(side, side);
+    for (DepthInterval& i : map.pixels) {
+        // Few distinct depths, so that bounds coincide and ties are common.
+        const int entry = step(rng), exit = entry + step(rng) / 3;
+        i = {static_cast<float>(entry) / 16.0f, static_cast<float>(exit) / 16.0f};
+    }
+    return map;
+}
+
+void expect_lossless(const MultiresTree& tree, const Image<DepthInterval>& map) {
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const float value = value_at(tree, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+            ASSERT_TRUE(contains(map(x, y), value)) << x << "," << y << ": " << value << " not in ["
+                                                    << map(x, y).entry << ", " << map(x, y).exit << "]";
+        }
+    }
+}
+
+/// Nodes above the texels whose texels have no common depth, counted from the picture alone.
+std::uint64_t divided_squares(const Image<DepthInterval>& map) {
+    std::uint64_t divided = 0;
+    Image<DepthInterval> level = map;
+    while (level.width > 1) {
+        Image<DepthInterval> up(level.width / 2, level.width / 2);
+        for (int y = 0; y < up.height; ++y) {
+            for (int x = 0; x < up.width; ++x) {
+                DepthInterval all{0, 1};
+                for (int k = 0; k < 4; ++k) {
+                    const DepthInterval c = level(2 * x + k % 2, 2 * y + k / 2);
+                    all = {std::max(all.entry, c.entry), std::min(all.exit, c.exit)};
+                }
+                up(x, y) = all;
+                divided += all.entry > all.exit;
+            }
+        }
+        level = std::move(up);
+    }
+    return divided;
+}
+
+TEST(Combine, TakesTheFirstOfTheMostStabbedMinima) {
+    // Two pairs overlap equally often: the pair whose minimum comes first in child order wins.
+    const DepthInterval tie[4] = {{0.5f, 0.6f}, {0.1f, 0.2f}, {0.15f, 0.3f}, {0.55f, 0.7f}};
+    const Combined c = combine(tie);
+    EXPECT_EQ(c.covered, 0b0110u | 0u) << "0.15 stabs children 1 and 2 and is met before 0.55";
+    EXPECT_EQ(c.interval, (DepthInterval{0.15f, 0.2f}));
+    const DepthInterval apart[4] = {{0.4f, 0.5f}, {0.1f, 0.2f}, {0.6f, 0.7f}, {0.8f, 0.9f}};
+    EXPECT_EQ(combine(apart), (Combined{{0.4f, 0.5f}, 1u}));
+    const DepthInterval touching[4] = {{0.1f, 0.5f}, {0.5f, 0.9f}, {0.2f, 0.5f}, {0.5f, 0.5f}};
+    EXPECT_EQ(combine(touching), (Combined{{0.5f, 0.5f}, 15u}));
+}
+
+TEST(Combine, WorksForEightChildren) {
+    DepthInterval eight[8];
+    for (int i = 0; i < 8; ++i)
+        eight[i] = {0.1f * static_cast<float>(i), 0.1f * static_cast<float>(i) + 0.25f};
+    const Combined c = combine(eight);
+    EXPECT_EQ(c.covered, 0b111u);
+}
+
+TEST(Multires, EveryTexelFindsADepthOfItsInterval) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+        for (const Image<DepthInterval>& map :
+             {scene_intervals(seed, 256, seed % 2 == 0), random_intervals(seed, 128)}) {
+            expect_lossless(build_bottom_up(map.view()), map);
+            expect_lossless(build_top_down(map.view()), map);
+        }
+    }
+}
+
+TEST(Multires, InnerNodesAreExactlyTheSquaresWithoutACommonDepth) {
+    for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+        for (const Image<DepthInterval>& map :
+             {scene_intervals(seed, 256, seed % 2 == 0), random_intervals(seed, 64)}) {
+            const MultiresCounts counts = count_nodes(build_bottom_up(map.view()));
+            EXPECT_EQ(counts.full + counts.empty, divided_squares(map));
+        }
+    }
+}
+
+TEST(Multires, AnEmptySceneIsOneNode) {
+    const Image<DepthInterval> background(64, 64);
+    for (const MultiresTree& tree : {build_bottom_up(background.view()), build_top_down(background.view())}) {
+        EXPECT_EQ(count_nodes(tree), (MultiresCounts{0, 0, 1}));
+        EXPECT_EQ(value_at(tree, 5, 9), 1.0f);
+    }
+}
+
+TEST(Multires, ConstructionsAreCloseInSize) {
+    // The paper finds the two comparable; the sweep sees more at once, so it may not be much larger.
+    const Image<DepthInterval> map = scene_intervals(3, 512, false);
+    const auto size = [](const MultiresCounts& c) { return 2 * c.full + c.empty + c.leaf; };
+    const auto up = size(count_nodes(build_bottom_up(map.view())));
+    const auto down = size(count_nodes(build_top_down(map.view())));
+    EXPECT_LT(down, up + up / 4);
+    EXPECT_LT(up, down + down / 4);
+}
+
+}  // namespace
+}  // namespace obscura
