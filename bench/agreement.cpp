@@ -44,7 +44,7 @@ bool on_silhouette(const float* depth, int width, std::ptrdiff_t at) {
 Agreement summarise(Workload workload, const BenchScene& scene, const float* result) {
     Agreement agreement;
     const std::size_t size = result_size(workload, scene);
-    if (workload == Workload::frame) {
+    if (is_frame(workload)) {
         Mean luminance;
         for (std::size_t i = 0; i < size; i += 3) {
             const double y = 0.2126 * static_cast<double>(result[i]) +

@@ -37,22 +37,6 @@ Style style_of(const std::string& contestant) {
     return {"#555555", 12, 13};
 }
 
-std::string size_text(const BenchRow& row) {
-    return fmt::format("{} x {}", row.width, row.height);
-}
-
-std::string title_of(const BenchRow& row) {
-    switch (row.workload) {
-        case Workload::depth:
-            return "Nearest depth per texel of a light view, " + size_text(row);
-        case Workload::dual_depth:
-            return "First and second depth per texel of a light view, " + size_text(row);
-        case Workload::frame:
-            return "Shaded frame with shadows, " + size_text(row);
-    }
-    return {};
-}
-
 std::vector<ChartLine> lines_of(const std::vector<BenchRow>& rows, Workload workload) {
     std::vector<ChartLine> lines;
     for (const std::string& scene : scenes_of(rows)) {
@@ -167,8 +151,8 @@ std::string frame_commands(const std::vector<ChartLine>& lines, const std::vecto
         "set grid xtics mxtics lt 1 lc rgb '#c8c8c8' lw 0.8, lt 1 lc rgb '#ececec' lw 0.5\n"
         "set xlabel 'time in ms (logarithmic; further left is faster)'\n"
         "set xrange [{:.4f}:{:.4f}]\nset yrange [{:.1f}:0.2]\n",
-        height, quoted(title_of(*lines[1].rows[0])), from_top(24), from_top(78), 84.0 / height, low, high,
-        static_cast<double>(lines.size()) + 0.8);
+        height, quoted(workload_title(*lines[1].rows[0])), from_top(24), from_top(78), 84.0 / height, low,
+        high, static_cast<double>(lines.size()) + 0.8);
     std::string all;
     for (const int t : threads)
         all += fmt::format("{}{}", all.empty() ? "" : " / ", t);
@@ -254,7 +238,7 @@ void draw_charts(const std::vector<BenchRow>& rows, const BenchOptions& options)
         options.say("gnuplot is not installed (package gnuplot-nox): tables only, no charts");
         return;
     }
-    for (const Workload workload : {Workload::depth, Workload::dual_depth, Workload::frame}) {
+    for (const Workload workload : all_workloads) {
         const std::string script = chart_script(rows, workload, options);
         if (script.empty()) continue;
         run_gnuplot(script, options.out / fmt::format("raster_{}.svg", workload_file_name(workload)));

@@ -10,7 +10,7 @@ namespace obscura {
 /// run, and the ratio to Obscura's fastest as text. Empty when the workload has no times.
 std::string chart_script(const std::vector<BenchRow>& rows, Workload workload, const BenchOptions& options);
 
-/// Writes raster_depth.svg, raster_dual_depth.svg and raster_frame.svg into options.out. Without gnuplot says
+/// Writes one raster_WORK.svg per workload into options.out. Without gnuplot says
 /// so and draws nothing.
 void draw_charts(const std::vector<BenchRow>& rows, const BenchOptions& options);
 

@@ -1,5 +1,7 @@
 #include "bench/contestant.h"
 
+#include <algorithm>
+
 namespace obscura {
 
 const char* workload_name(Workload workload) {
@@ -10,12 +12,16 @@ const char* workload_name(Workload workload) {
             return "dual depth";
         case Workload::frame:
             return "frame";
+        case Workload::static_frame:
+            return "static frame";
     }
     return "";
 }
 
-const char* workload_file_name(Workload workload) {
-    return workload == Workload::dual_depth ? "dual_depth" : workload_name(workload);
+std::string workload_file_name(Workload workload) {
+    std::string name = workload_name(workload);
+    std::replace(name.begin(), name.end(), ' ', '_');
+    return name;
 }
 
 std::size_t result_size(Workload workload, const BenchScene& scene) {
@@ -29,6 +35,7 @@ std::size_t result_size(Workload workload, const BenchScene& scene) {
         case Workload::dual_depth:
             return 2 * texels;
         case Workload::frame:
+        case Workload::static_frame:
             return 3 * pixels(scene.scene.render.width, scene.scene.render.height);
     }
     return 0;

@@ -34,7 +34,7 @@ BenchRow start_row(const BenchScene& scene, Workload workload, const Contestant&
     row.scene = scene.name;
     row.triangles = scene.scene.mesh.triangles.size();
     row.workload = workload;
-    const bool frame = workload == Workload::frame;
+    const bool frame = is_frame(workload);
     row.width = frame ? scene.scene.render.width : scene.light.width;
     row.height = frame ? scene.scene.render.height : scene.light.height;
     row.contestant = contestant.name;
@@ -44,7 +44,7 @@ BenchRow start_row(const BenchScene& scene, Workload workload, const Contestant&
 
 void add_problem(Field& field, const BenchScene& scene, const Contestant& contestant, int threads,
                  const std::string& problem) {
-    for (const Workload workload : {Workload::depth, Workload::dual_depth, Workload::frame}) {
+    for (const Workload workload : all_workloads) {
         field.rows.push_back(start_row(scene, workload, contestant, threads));
         field.rows.back().problem = problem;
     }
@@ -99,7 +99,7 @@ void check_agreement(Field& field, const Slot& slot, const BenchScene& scene, co
     if (!worker.jobs()[slot.job].delivers) return;
     worker.deliver(slot.job);
     Agreement agreement = summarise(row.workload, scene, canvas.data());
-    if (row.workload != Workload::frame) {
+    if (!is_frame(row.workload)) {
         const std::size_t texels = result_size(Workload::depth, scene);
         if (field.reference.empty()) field.reference.assign(canvas.data(), canvas.data() + texels);
         compare_depths(agreement, scene, canvas.data(), field.reference.data());
@@ -119,7 +119,7 @@ double median(std::vector<double> values) {
 std::vector<BenchRow> measure_scene(const std::vector<Contestant>& contestants, const BenchScene& scene,
                                     const BenchOptions& options) {
     std::size_t largest = 0;
-    for (const Workload w : {Workload::depth, Workload::dual_depth, Workload::frame}) {
+    for (const Workload w : all_workloads) {
         largest = std::max(largest, result_size(w, scene));
     }
     const SharedFloats canvas(largest);

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "app/render_frame.h"
 #include "core/buffer.h"
 #include "raster/depth_map.h"
 #include "raster/interval_map.h"
@@ -18,6 +19,8 @@ struct OurState {
     RasterScratch scratch;
     Raster<float> depth;
     Raster<DepthInterval> intervals;
+    FrameCache cache;
+    Frame frame;
 };
 
 void draw_depth(OurState& s, Culling culling) {
@@ -28,6 +31,14 @@ void draw_depth(OurState& s, Culling culling) {
 
 void draw_intervals(OurState& s) {
     interval_map(s.bench->scene.mesh, s.bench->light, {}, s.exec, s.scratch, s.intervals.view());
+}
+
+void draw_frame(OurState& s, bool light_moved) {
+    // A map that was made for another resolution is made again, in the memory it has.
+    for (FrameCache::Shadow& shadow : s.cache.shadows) {
+        if (light_moved) shadow.light.shadow.resolution = 0;
+    }
+    render_frame(s.bench->scene, {}, s.exec, s.cache, s.frame);
 }
 
 void deliver_intervals(const OurState& s, float* result) {
@@ -48,6 +59,9 @@ Session open_ours(const BenchScene& bench, const Exec& exec) {
     const auto deliver_depth = [&s](float* r) {
         std::memcpy(r, s.depth.pixels.data(), s.depth.pixels.size() * sizeof(float));
     };
+    const auto deliver_frame = [&s](float* r) {
+        std::memcpy(r, s.frame.radiance.pixels.data(), s.frame.radiance.pixels.size() * sizeof(Vec3f));
+    };
     Session session;
     session.version = fmt::format("this build ({})", isa_name(exec.isa));
     session.prepare_ms = bench.topology_ms;
@@ -57,6 +71,10 @@ Session open_ours(const BenchScene& bench, const Exec& exec) {
          deliver_depth},
         {Workload::dual_depth, "entry and exit, full counter", true, [&s] { draw_intervals(s); },
          [&s](float* r) { deliver_intervals(s, r); }},
+        {Workload::frame, "Lambert + GGX, interval map, 1 tap", true, [&s] { draw_frame(s, true); },
+         deliver_frame},
+        {Workload::static_frame, "Lambert + GGX, 1 tap, map kept", true, [&s] { draw_frame(s, false); },
+         deliver_frame},
     };
     session.state = state;
     return session;

@@ -310,7 +310,7 @@ std::vector<Job> jobs_of(const LlvmpipeState& s) {
              draw_frame(t);
          }),
          read_color},
-        {Workload::frame, "Phong, 1 tap, map kept", false, timed(draw_frame), read_color},
+        {Workload::static_frame, "Phong, 1 tap, map kept", true, timed(draw_frame), read_color},
     };
 }
 

@@ -18,7 +18,7 @@ constexpr BenchSize quick_size{512, 320, 180};
 /// One line per scene and workload: ours beside the best peer with most threads.
 void say_headline(const std::vector<BenchRow>& rows, const std::string& scene, const BenchOptions& options) {
     const int threads = *std::max_element(options.threads.begin(), options.threads.end());
-    for (const Workload workload : {Workload::depth, Workload::dual_depth, Workload::frame}) {
+    for (const Workload workload : all_workloads) {
         const BenchRow* our = fastest(rows, scene, workload, threads,
                                       [](const BenchRow& row) { return row.contestant == our_name; });
         const BenchRow* peer = fastest(rows, scene, workload, threads,

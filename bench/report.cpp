@@ -12,8 +12,6 @@
 namespace obscura {
 namespace {
 
-constexpr Workload workloads[] = {Workload::depth, Workload::dual_depth, Workload::frame};
-
 using Out = std::back_insert_iterator<std::string>;
 
 /// Quotes a CSV field where it needs it (RFC 4180).
@@ -32,18 +30,6 @@ double least(const BenchRow& row) {
 }
 double greatest(const BenchRow& row) {
     return *std::max_element(row.runs_ms.begin(), row.runs_ms.end());
-}
-
-std::string workload_title(const BenchRow& row) {
-    switch (row.workload) {
-        case Workload::depth:
-            return fmt::format("Depth-only light view, {} x {}", row.width, row.height);
-        case Workload::dual_depth:
-            return fmt::format("Dual depth, {} x {}", row.width, row.height);
-        case Workload::frame:
-            return fmt::format("Shaded frame with shadows, {} x {}", row.width, row.height);
-    }
-    return {};
 }
 
 std::string time_text(const BenchRow& row) {
@@ -84,7 +70,7 @@ void write_headline(Out out, const std::vector<BenchRow>& rows, const BenchOptio
         "|---|---|--:|--:|---|--:|--:|\n");
     const auto ours = [](const BenchRow& row) { return row.contestant == our_name; };
     const auto peers = [](const BenchRow& row) { return row.contestant != our_name; };
-    for (const Workload workload : workloads) {
+    for (const Workload workload : all_workloads) {
         for (const std::string& scene : scenes_of(rows)) {
             for (const int threads : options.threads) {
                 const BenchRow* our = fastest(rows, scene, workload, threads, ours);
@@ -131,7 +117,7 @@ void write_agreement(Out out, const std::vector<BenchRow>& rows) {
     for (const BenchRow& row : rows) {
         if (!row.agreement) continue;
         const Agreement& a = *row.agreement;
-        const bool depth = row.workload != Workload::frame;
+        const bool depth = !is_frame(row.workload);
         fmt::format_to(
             out, "| {} | {} | {} | {} | {} | {:.5f} | {:.5f} | {} | {} | {} |\n", workload_name(row.workload),
             row.scene, row.contestant, row.method, row.threads, a.covered, a.mean_first,
@@ -148,6 +134,21 @@ std::vector<std::string> scenes_of(const std::vector<BenchRow>& rows) {
         if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end()) scenes.push_back(row.scene);
     }
     return scenes;
+}
+
+std::string workload_title(const BenchRow& row) {
+    const std::string size = fmt::format(", {} x {}", row.width, row.height);
+    switch (row.workload) {
+        case Workload::depth:
+            return "Nearest depth per texel of a light view" + size;
+        case Workload::dual_depth:
+            return "First and second depth per texel of a light view" + size;
+        case Workload::frame:
+            return "Shaded frame after the light has moved" + size;
+        case Workload::static_frame:
+            return "Shaded frame after only the camera has moved" + size;
+    }
+    return {};
 }
 
 const BenchRow* fastest(const std::vector<BenchRow>& rows, const std::string& scene, Workload workload,
@@ -224,7 +225,7 @@ std::string report_markdown(const std::vector<BenchRow>& rows, const BenchOption
     write_machine(out);
     write_contestants(out, rows);
     write_headline(out, rows, options);
-    for (const Workload workload : workloads)
+    for (const Workload workload : all_workloads)
         write_times(out, rows, workload);
     write_agreement(out, rows);
     return text;

@@ -11,6 +11,9 @@ inline constexpr const char* our_name = "Obscura";
 /// Scenes in the order of their first row.
 std::vector<std::string> scenes_of(const std::vector<BenchRow>& rows);
 
+/// Heading of a row's workload, with its size.
+std::string workload_title(const BenchRow& row);
+
 /// The fastest row of a scene, workload and thread count that does the whole work and for which `take` is
 /// true; null when there is none.
 const BenchRow* fastest(const std::vector<BenchRow>& rows, const std::string& scene, Workload workload,
