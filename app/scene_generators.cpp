@@ -145,6 +145,16 @@ ShapeSpec planter_shape() {
                        planter, [](const P& p) { return 4000.0 + 4.0 * p.leaves; });
 }
 
+ShapeSpec hedge_shape() {
+    using P = HedgeParams;
+    return shape_of<P>("hedge", "A clipped hedge along x. Slots: core, leaf, young_leaf.",
+                       {knob("length_m", &P::length_m, 0.3, 500, "Along x."),
+                        knob("height_m", &P::height_m, 0.3, 20, "Of the top."),
+                        knob("depth_m", &P::depth_m, 0.15, 50, "Along z."),
+                        knob("leaves", &P::leaves, 0, 1e6, "Four triangles each."), seed_knob<P>()},
+                       hedge, [](const P& p) { return 12.0 + 4.0 * p.leaves; });
+}
+
 ShapeSpec bench_shape() {
     using P = BenchParams;
     return shape_of<P>("bench", "A stone bench along x. Slots: stone.",
@@ -229,6 +239,8 @@ ShapeSpec house_shape() {
          knob("roof_m", &P::roof_m, 0, 50, "Height of the hip roof; 0 = flat with a parapet."),
          knob("detail", &P::detail, 0, 4,
               "0 box, 1 cornice, 2 windows, 3 sills and lintels, 4 bars and shutters."),
+         knob("fronts", &P::fronts, 0, 4,
+              "Of +z, +x, -z, -x in this order, how many have windows with trim."),
          seed_knob<P>()},
         house, [](const P& p) {
             return 2000.0 +
@@ -272,9 +284,9 @@ ShapeSpec city_shape() {
 }  // namespace
 
 std::vector<ShapeSpec> generator_shapes() {
-    return {arcade_shape(),  stairs_shape(),       fence_shape(),    tree_shape(),     lamp_post_shape(),
-            planter_shape(), bench_shape(),        fountain_shape(), pavement_shape(), roof_tiles_shape(),
-            window_shape(),  pierced_wall_shape(), house_shape(),    city_shape()};
+    return {arcade_shape(),     stairs_shape(), fence_shape(),        tree_shape(),     lamp_post_shape(),
+            planter_shape(),    hedge_shape(),  bench_shape(),        fountain_shape(), pavement_shape(),
+            roof_tiles_shape(), window_shape(), pierced_wall_shape(), house_shape(),    city_shape()};
 }
 
 }  // namespace obscura

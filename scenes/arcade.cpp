@@ -74,7 +74,7 @@ void add_capital_leaves(Mesh& mesh, const ArcadeParams& p, const Order& o, const
                                           {{top + 0.09 * r, o.shaft + (low + 0.2) * height, 0}, 0.115 * r},
                                           {{top + 0.6 * reach * r, o.shaft + tip * height, 0}, 0.10 * r},
                                           {{top + reach * r, o.shaft + (tip - 0.05) * height, 0}, 0.05 * r}};
-        add_part(mesh, tube(path, 6), at * rotation_y(22.5 * i), trim);
+        add_part(mesh, tube(path, 5), at * rotation_y(22.5 * i), trim);
     }
 }
 

@@ -16,21 +16,21 @@ namespace {
 using namespace city_slot;
 
 std::vector<Material> slots() {
-    std::vector<Material> m{material_slot("asphalt", 78, 78, 80, 0.9f),
+    std::vector<Material> m{material_slot("asphalt", 112, 110, 108, 0.9f),
                             material_slot("kerb", 168, 164, 156, 0.85f),
                             material_slot("sidewalk", 150, 146, 138, 0.9f),
                             material_slot("lawn", 92, 116, 62, 1.0f),
-                            material_slot("setts", 104, 100, 96, 0.85f),
-                            material_slot("facade_sand", 224, 198, 156, 0.9f),
-                            material_slot("facade_brick", 158, 92, 70, 0.9f),
+                            material_slot("setts", 126, 120, 114, 0.85f),
+                            material_slot("facade_sand", 222, 202, 168, 0.9f),
+                            material_slot("facade_brick", 176, 112, 88, 0.9f),
                             material_slot("facade_rose", 214, 164, 140, 0.9f),
                             material_slot("facade_white", 222, 216, 204, 0.85f),
                             material_slot("facade_grey", 168, 166, 160, 0.85f),
-                            material_slot("facade_ochre", 206, 164, 96, 0.9f),
+                            material_slot("facade_ochre", 208, 178, 130, 0.9f),
                             material_slot("trim", 232, 224, 206, 0.8f),
                             material_slot("pane", 34, 44, 56, 0.08f),
                             material_slot("pane_lit", 60, 56, 48, 0.1f),
-                            material_slot("roof_tile", 172, 96, 68, 0.85f),
+                            material_slot("roof_tile", 160, 102, 80, 0.85f),
                             material_slot("roof_slate", 84, 90, 98, 0.6f),
                             material_slot("roof_flat", 120, 116, 110, 0.95f),
                             material_slot("metal", 120, 124, 126, 0.4f),
@@ -89,6 +89,9 @@ void refine(Site& site, std::int64_t budget, Random random) {
         for (std::size_t i = order.size(); i > 1; --i) {
             std::swap(order[i - 1], order[static_cast<std::size_t>(random.index(static_cast<int>(i)))]);
         }
+        // Towers stand out: they come first.
+        std::stable_partition(order.begin(), order.end(),
+                              [&](std::size_t i) { return site.plan.items[i].kind == CityItemKind::tower; });
         int refused = 0;
         for (const std::size_t i : order) {
             Mesh finer = build_city_item(site.plan.items[i], level);

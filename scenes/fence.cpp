@@ -20,7 +20,7 @@ Mesh bar(const FenceParams& p) {
                   {2.3 * r, collar + 0.095},
                   {1.5 * r, collar + 0.14},
                   {0, p.height_m}},
-                 8, 50);
+                 6, 50);
 }
 
 Mesh post(const FenceParams& p) {
@@ -65,7 +65,7 @@ GeneratedModel fence(const FenceParams& p) {
     // Rings between the two upper rails.
     const double ring = 0.5 * (0.12 - 2 * thick) - 0.002;
     if (ring > 0.012) {
-        const Mesh one = torus(ring, 0.35 * ring, 12, 6);
+        const Mesh one = torus(ring, 0.35 * ring, 10, 5);
         for (int k = 0; k < fields * bars; ++k) {
             const double x = -half + p.length_m * (k + 0.5) / (fields * bars);
             add_part(model.mesh, one, translation(x, p.height_m - 0.30 + thick, 0) * rotation_x(90));

@@ -165,6 +165,38 @@ GeneratedModel planter(const PlanterParams& p) {
     return model;
 }
 
+GeneratedModel hedge(const HedgeParams& p) {
+    CHECK(p.length_m > 0.2 && p.height_m > 0.2 && p.depth_m > 0.1 && p.leaves >= 0);
+    GeneratedModel model;
+    model.materials = {material_slot("core", 30, 44, 24, 1.0f), material_slot("leaf", 64, 96, 44, 0.55f),
+                       material_slot("young_leaf", 88, 120, 54, 0.55f)};
+    model.materials[1].translucency = model.materials[2].translucency = 0.25f;
+    const Vec3d half{0.5 * p.length_m, p.height_m, 0.5 * p.depth_m};
+    add_part(model.mesh,
+             box({-half.x + 0.04, -0.05, -half.z + 0.04}, {half.x - 0.04, half.y - 0.04, half.z - 0.04}), {});
+    // Leaves over the top, the long sides and the ends, by their areas.
+    const double top = p.length_m * p.depth_m, side = p.length_m * p.height_m, end = p.depth_m * p.height_m;
+    Random random(static_cast<std::uint64_t>(p.seed));
+    for (int i = 0; i < p.leaves; ++i) {
+        const double pick = random.range(0, top + 2 * side + 2 * end), sign = random.chance(0.5) ? 1.0 : -1.0;
+        Vec3d at{random.range(-half.x, half.x), random.range(0.0, half.y), random.range(-half.z, half.z)},
+            out{0, 1, 0};
+        if (pick < top) {
+            at.y = half.y;
+        } else if (pick < top + 2 * side) {
+            at.z = sign * half.z, out = {0, 0, sign};
+        } else {
+            at.x = sign * half.x, out = {sign, 0, 0};
+        }
+        const Vec3d along = normalize(out * 0.7 + random_direction(random));
+        const Vec3d up = normalize(out + Vec3d{0, 0.6, 0} + random_direction(random) * 0.5);
+        if (std::fabs(dot(along, up)) > 0.97) continue;
+        add_leaf(model.mesh, at - out * 0.05, along, up, random.range(0.07, 0.12),
+                 random.chance(0.3) ? 2 : 1);
+    }
+    return model;
+}
+
 GeneratedModel bench(const BenchParams& p) {
     CHECK(p.length_m > 0.6 && p.height_m > 0.25 && p.depth_m > 0.2);
     GeneratedModel model;

@@ -80,6 +80,16 @@ struct PlanterParams {
 };
 GeneratedModel planter(const PlanterParams& params);
 
+/// Clipped hedge along X: a dark core under a coat of leaves.
+struct HedgeParams {
+    double length_m = 6.0;
+    double height_m = 1.2;
+    double depth_m = 0.7;
+    int leaves = 2500;
+    int seed = 1;
+};
+GeneratedModel hedge(const HedgeParams& params);
+
 /// Stone bench along X: a slab with a rounded edge on two profiled supports.
 struct BenchParams {
     double length_m = 1.7;
@@ -150,6 +160,7 @@ struct HouseParams {
     double bay_m = 2.4;   ///< about; windows divide each front evenly
     double roof_m = 1.6;  ///< height of the hip roof; 0 = flat with a parapet
     int detail = 4;       ///< 0 box, 1 cornice, 2 windows, 3 sills and lintels, 4 glazing bars and shutters
+    int fronts = 4;       ///< of the four (+Z, +X, -Z, -X), how many have windows with trim
     int seed = 1;
 };
 GeneratedModel house(const HouseParams& params);

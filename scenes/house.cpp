@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -24,7 +25,7 @@ Plan plan_of(const HouseParams& p) {
     const double window = 0.40 * p.bay_m < 1.15 ? 0.40 * p.bay_m : 1.15;
     const auto count = [&](double length) { return static_cast<int>(std::floor(length / p.bay_m + 0.25)); };
     b.wide.columns = even_openings(p.width_m, count(p.width_m), window);
-    b.deep.columns = even_openings(p.depth_m, count(p.depth_m), window);
+    if (p.fronts > 1) b.deep.columns = even_openings(p.depth_m, count(p.depth_m), window);
     for (int s = 0; s < p.storeys; ++s) {
         b.wide.rows.push_back({s * p.storey_m + 0.26 * p.storey_m, s * p.storey_m + 0.80 * p.storey_m});
     }
@@ -149,7 +150,7 @@ GeneratedModel house(const HouseParams& p) {
                  {}, trim);
     }
     if (p.detail < 3) return model;
-    for (int side = 0; side < 4; ++side) {
+    for (int side = 0; side < std::min(p.fronts, 4); ++side) {
         const bool wide = side % 2 == 0;
         const double length = wide ? p.width_m : p.depth_m, out = 0.5 * (wide ? p.depth_m : p.width_m);
         const Affine front = rotation_y(90 * side) * translation(-0.5 * length, 0, out);

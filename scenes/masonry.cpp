@@ -80,8 +80,8 @@ GeneratedModel roof_tiles(const RoofTilesParams& p) {
     const double step_x = p.width_m / columns, step_z = p.slope_m / rows;
     const auto half_pipe = [&](double radius, bool up) {
         std::vector<Vec2d> inner, outer;
-        for (int i = 0; i <= 6; ++i) {
-            const Vec2d c = on_circle(0.5 - 0.5 * i / 6);
+        for (int i = 0; i <= 5; ++i) {
+            const Vec2d c = on_circle(0.5 - 0.5 * i / 5);
             inner.push_back(c * (radius - 0.014)), outer.push_back(c * radius);
         }
         return up ? strip(inner, outer, 0, step_z + 0.05, 40) : Mesh{};

@@ -59,7 +59,7 @@ std::vector<Node> trunk(const TreeParams& p, double step, Random& random) {
 std::vector<Node> grow(const TreeParams& p, Random& random) {
     const double size = num::cbrt(p.crown_radius_m * p.crown_radius_m * (p.height_m - p.trunk_m));
     const double step = 0.055 * size, reached = 2.0 * step;
-    std::vector<Vec3d> points = attractors(p, random, 2400);
+    std::vector<Vec3d> points = attractors(p, random, std::clamp(p.leaves / 6, 300, 2400));
     std::vector<Node> nodes = trunk(p, step, random);
     std::vector<int> nearest(points.size(), 0);
     std::vector<double> distance(points.size(), 1e30);

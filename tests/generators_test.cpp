@@ -33,6 +33,7 @@ TEST(Generators, AreClosedOutwardAndReproducible) {
     expect_good("tree", tree({}), "16d777a95a6a622f");
     expect_good("lamp_post", lamp_post({}), "073a1d2c8ab9d904");
     expect_good("planter", planter({}), "5c60722910b54586");
+    expect_good("hedge", hedge({}), "");
     expect_good("bench", bench({}), "48b30b54e2602942");
     expect_good("fountain", fountain({}), "0c579da44a89a553");
     expect_good("pavement", pavement({}), "e1b34dc2c49f5bb5");
