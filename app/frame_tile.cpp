@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "raster/depth_tile.h"
+#include "raster/resolve.h"
 #include "raster/texture.h"
 
 namespace obscura {
@@ -65,14 +66,15 @@ void write_channels(const TileScene& scene, const TileRect& tile, int first_row,
     }
 }
 
+/// Rows [first_row, first_row + rows) of the tile; the planes begin at first_row.
 void write_pixels(const TileRect& tile, int first_row, int rows, const TileWindow& window, const float* r,
-                  const float* g, const float* b, float scale, Frame& frame) {
+                  const float* g, const float* b, float scale, Isa isa, Frame& frame) {
+    const int count = window.x1 - window.x0;
+    if (count <= 0) return;
     for (int y = std::max(window.y0, first_row); y < std::min(window.y1, first_row + rows); ++y) {
-        Vec3f* out = frame.radiance.view().row(tile.y0 + y - frame.y0) + (tile.x0 - frame.x0);
-        const int from = (y - first_row) * frame_tile_side;
-        for (int x = window.x0; x < window.x1; ++x) {
-            out[x] = {r[from + x] * scale, g[from + x] * scale, b[from + x] * scale};
-        }
+        const int from = (y - first_row) * frame_tile_side + window.x0;
+        Vec3f& out = frame.radiance.view()(tile.x0 + window.x0 - frame.x0, tile.y0 + y - frame.y0);
+        OBSCURA_DISPATCH(isa, resolve_pixels, r + from, g + from, b + from, count, scale, &out.x);
     }
 }
 
@@ -152,7 +154,7 @@ std::int64_t render_tile(const TileScene& scene, int column, int row, const Fram
             if (channels) write_channels(scene, tile, first_row, window, sample, work, options, frame);
             if (samples == 1) {
                 write_pixels(tile, first_row, block_rows, window, work.shade.r, work.shade.g, work.shade.b,
-                             1.0f, frame);
+                             1.0f, isa, frame);
             } else {
                 add_block(work.shade, first_row, sample == 0, work);
             }
@@ -160,7 +162,7 @@ std::int64_t render_tile(const TileScene& scene, int column, int row, const Fram
     }
     if (samples > 1) {
         write_pixels(tile, 0, frame_tile_side, window, work.r, work.g, work.b,
-                     1.0f / static_cast<float>(samples), frame);
+                     1.0f / static_cast<float>(samples), isa, frame);
     }
     return covered;
 }

@@ -141,7 +141,8 @@ std::int64_t frame_bytes(const Scene& scene, const FrameOptions& options) {
     pixel += options.object ? 4 : 0;
     pixel += options.shadow ? 4 : 0;
     std::int64_t bytes = pixel * crop.width * crop.height;
-    bytes += static_cast<std::int64_t>(scene.mesh.triangles.size() * sizeof(SurfaceTriangle));
+    bytes += static_cast<std::int64_t>(scene.mesh.triangles.size() * sizeof(SurfaceTriangle) +
+                                       scene.mesh.positions.size() * sizeof(SurfaceVertex));
     bool shadows = false;
     for (const Light& light : scene.lights) {
         if (!casts_shadows(light)) continue;
@@ -154,12 +155,13 @@ std::int64_t frame_bytes(const Scene& scene, const FrameOptions& options) {
 void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats) {
     if (!cache.prepared) {
         const Stopwatch watch;
-        surface_triangles(scene.mesh, scene.materials, exec, cache.surface);
+        surface_tables(scene.mesh, scene.materials, exec, cache.surface);
+        cache.solids = solids_of(scene.mesh);
         cache.bounds = bounds_of(scene.mesh);
         cache.prepared = true;
         stats.surface_s = watch.seconds();
     }
-    CHECK(cache.surface.size() == scene.mesh.triangles.size(), "the mesh changed without forget()");
+    CHECK(cache.surface.triangles.size() == scene.mesh.triangles.size(), "the mesh changed without forget()");
 
     const Stopwatch watch;
     std::size_t used = 0;
@@ -189,6 +191,8 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
     t.pattern = sample_pattern(render.samples);
     SetupParams params;
     params.centre_samples_only = render.samples == 1;
+    if (sees_no_exits(cache.solids, scene.camera, render.width, render.height))
+        params.culling = Culling::exits;
     setup_triangles(scene.mesh, t.view, params, exec, cache.camera_scratch.setup);
     bin_records(cache.camera_scratch.setup, render.width, render.height, frame_tile_side, exec,
                 cache.camera_scratch.bins);

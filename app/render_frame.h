@@ -8,6 +8,7 @@
 #include "core/isa.h"
 #include "core/scene.h"
 #include "raster/shadow_map.h"
+#include "raster/solids.h"
 #include "raster/surface.h"
 
 namespace obscura {
@@ -21,7 +22,8 @@ struct FrameCache {
     };
     bool prepared = false;
     Bounds bounds;
-    Buffer<SurfaceTriangle> surface;
+    SurfaceTables surface;
+    Solids solids;
     std::vector<Shadow> shadows;  ///< of the lights with shadows, in scene order
     RasterScratch camera_scratch, light_scratch;
     void forget() { *this = FrameCache{}; }

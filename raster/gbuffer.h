@@ -32,13 +32,16 @@ constexpr std::uint32_t surface_smooth = 1u << 29;    ///< corner normals differ
 constexpr std::uint32_t surface_textured = 1u << 30;  ///< material has a texture, mesh has uvs
 constexpr std::uint32_t surface_thin = 1u << 31;      ///< material lets light through
 
+/// Everything about a vertex in half a cache line, so that a corner costs one memory access.
+struct alignas(32) SurfaceVertex {
+    float position[3], normal[3], uv[2];
+};
+
 /// A mesh as the surface stage reads it.
 struct SurfaceMesh {
-    const SurfaceTriangle* surface = nullptr;  ///< per triangle
-    const std::uint32_t* corners = nullptr;    ///< three vertex indices per triangle
-    const float* positions = nullptr;          ///< x, y, z per vertex
-    const float* normals = nullptr;            ///< x, y, z per vertex
-    const float* uvs = nullptr;                ///< u, v per vertex; may be null
+    const SurfaceTriangle* triangles = nullptr;
+    const SurfaceVertex* vertices = nullptr;
+    const std::uint32_t* corners = nullptr;  ///< three vertex indices per triangle
 };
 
 /// One block of samples: index = row * 64 + column. Bit i of a mask word is sample 16 * group + i.

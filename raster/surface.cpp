@@ -18,14 +18,14 @@ bool differs(Vec3f a, Vec3f b) {
 
 }  // namespace
 
-void surface_triangles(const Mesh& mesh, const std::vector<Material>& materials, const Exec& exec,
-                       Buffer<SurfaceTriangle>& out) {
+void surface_tables(const Mesh& mesh, const std::vector<Material>& materials, const Exec& exec,
+                    SurfaceTables& out) {
     CHECK(mesh.normals.size() == mesh.positions.size() && mesh.face.size() == mesh.triangles.size() &&
               mesh.component.size() == mesh.triangles.size(),
           "shading needs a mesh with topology and normals");
     CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
     CHECK(materials.size() < surface_material_mask && mesh.triangles.size() < 0x7fffffffu);
-    out.reset(mesh.triangles.size());
+    out.triangles.reset(mesh.triangles.size());
     parallel_blocks(mesh.triangles.size(), 4096, exec, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const Vec3f normal = to_float(mesh.faces[mesh.face[t]].n);
@@ -37,21 +37,23 @@ void surface_triangles(const Mesh& mesh, const std::vector<Material>& materials,
             }
             if (material.texture >= 0 && !mesh.uvs.empty()) info |= surface_textured;
             if (material.translucency > 0) info |= surface_thin;
-            out[t] = {{normal.x, normal.y, normal.z}, info};
+            out.triangles[t] = {{normal.x, normal.y, normal.z}, info};
+        }
+    });
+    out.vertices.reset(mesh.positions.size());
+    parallel_blocks(mesh.positions.size(), 8192, exec, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t v = begin; v < end; ++v) {
+            const Vec3f p = mesh.positions[v], n = mesh.normals[v];
+            const Vec2f uv = mesh.uvs.empty() ? Vec2f{} : mesh.uvs[v];
+            out.vertices[v] = {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {uv.x, uv.y}};
         }
     });
 }
 
-SurfaceMesh surface_mesh(const Mesh& mesh, const Buffer<SurfaceTriangle>& surface) {
-    static_assert(sizeof(Triangle) == 12 && sizeof(Vec3f) == 12 && sizeof(Vec2f) == 8);
-    SurfaceMesh s;
-    if (mesh.triangles.empty()) return s;
-    s.surface = surface.data();
-    s.corners = mesh.triangles.data()->v;
-    s.positions = &mesh.positions.data()->x;
-    s.normals = &mesh.normals.data()->x;
-    s.uvs = mesh.uvs.empty() ? nullptr : &mesh.uvs.data()->x;
-    return s;
+SurfaceMesh surface_mesh(const Mesh& mesh, const SurfaceTables& tables) {
+    static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t));
+    if (mesh.triangles.empty()) return {};
+    return {tables.triangles.data(), tables.vertices.data(), mesh.triangles.data()->v};
 }
 
 }  // namespace obscura

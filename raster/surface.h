@@ -11,13 +11,19 @@
 
 namespace obscura {
 
-/// One entry per triangle of `mesh`, which needs its topology and normals; materials are indexed by
-/// mesh.material. Depends on neither camera nor lights.
-void surface_triangles(const Mesh& mesh, const std::vector<Material>& materials, const Exec& exec,
-                       Buffer<SurfaceTriangle>& out);
+/// A mesh and the flags of its materials, ready for the surface stage.
+struct SurfaceTables {
+    Buffer<SurfaceTriangle> triangles;
+    Buffer<SurfaceVertex> vertices;
+};
 
-/// Pointers into `mesh` and `surface`, which must outlive the result.
-SurfaceMesh surface_mesh(const Mesh& mesh, const Buffer<SurfaceTriangle>& surface);
+/// Tables of `mesh`, which needs its topology and normals; materials are indexed by mesh.material. They
+/// depend on neither camera nor lights.
+void surface_tables(const Mesh& mesh, const std::vector<Material>& materials, const Exec& exec,
+                    SurfaceTables& out);
+
+/// Pointers into `mesh` and `tables`, which must outlive the result.
+SurfaceMesh surface_mesh(const Mesh& mesh, const SurfaceTables& tables);
 
 /// Barycentric weights of corners 1 and 2 (corner 0 has the rest), each in [0, 1], together at most 1.
 struct Barycentrics {

@@ -75,7 +75,7 @@ OBSCURA_INLINE TriangleLanes read_triangles(const SurfaceMesh& mesh, const std::
         const Mask m = equal(ids, splat(static_cast<std::int32_t>(id)));
         const std::uint32_t lane_bits = bits(m);
         left &= ~lane_bits;
-        const SurfaceTriangle& s = mesh.surface[id];
+        const SurfaceTriangle& s = mesh.triangles[id];
         blend3(m, s.normal, t.geometric);
         t.material = select(m, splat(static_cast<std::int32_t>(s.info & surface_material_mask)), t.material);
         t.open |= (s.info & surface_open) != 0 ? lane_bits : 0;
@@ -84,16 +84,16 @@ OBSCURA_INLINE TriangleLanes read_triangles(const SurfaceMesh& mesh, const std::
         t.smooth |= (s.info & surface_smooth) != 0 ? lane_bits : 0;
         const std::uint32_t* corner = mesh.corners + 3 * static_cast<std::size_t>(id);
         for (int k = 0; k < 3; ++k) {
-            const auto at = static_cast<std::size_t>(corner[k]);
-            blend3(m, mesh.positions + 3 * at, t.corner[k]);
-            blend3(m, mesh.normals + 3 * at, t.normal[k]);
+            const SurfaceVertex& vertex = mesh.vertices[corner[k]];
+            blend3(m, vertex.position, t.corner[k]);
+            blend3(m, vertex.normal, t.normal[k]);
         }
         if ((s.info & surface_textured) == 0) continue;
         t.textured |= lane_bits;
         for (int k = 0; k < 3; ++k) {
-            const auto at = static_cast<std::size_t>(corner[k]);
-            t.u[k] = select(m, splat(mesh.uvs[2 * at]), t.u[k]);
-            t.v[k] = select(m, splat(mesh.uvs[2 * at + 1]), t.v[k]);
+            const SurfaceVertex& vertex = mesh.vertices[corner[k]];
+            t.u[k] = select(m, splat(vertex.uv[0]), t.u[k]);
+            t.v[k] = select(m, splat(vertex.uv[1]), t.v[k]);
         }
     }
     return t;

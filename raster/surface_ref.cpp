@@ -76,8 +76,8 @@ Barycentrics step(const RayTriangle& m, Vec3f dir, Vec3f o, Vec3f d) {
     return {(un - (m.un * m.inv) * det) * m.inv, (vn - (m.vn * m.inv) * det) * m.inv};
 }
 
-Vec3f corner_of(const float* xyz, std::uint32_t v) {
-    return {xyz[3 * v], xyz[3 * v + 1], xyz[3 * v + 2]};
+Vec3f vec(const float (&v)[3]) {
+    return {v[0], v[1], v[2]};
 }
 
 Vec2f interpolated(const Vec2f& corner, const Vec2f& e1, const Vec2f& e2, Barycentrics b) {
@@ -104,9 +104,9 @@ struct Store {
     }
 };
 
-void texture_coordinates(const SurfaceMesh& mesh, const std::uint32_t* v, const RayTriangle& m,
-                         const Ray& ray, Barycentrics b, SurfaceBlock& block, int at) {
-    const auto uv = [&](int k) { return Vec2f{mesh.uvs[2 * v[k]], mesh.uvs[2 * v[k] + 1]}; };
+void texture_coordinates(const SurfaceVertex* const (&vertex)[3], const RayTriangle& m, const Ray& ray,
+                         Barycentrics b, SurfaceBlock& block, int at) {
+    const auto uv = [&](int k) { return Vec2f{vertex[k]->uv[0], vertex[k]->uv[1]}; };
     const Vec2f uv0 = uv(0), e1 = uv(1) - uv0, e2 = uv(2) - uv0;
     const Vec2f here = interpolated(uv0, e1, e2, b);
     const Barycentrics bx = step(m, ray.dir, ray.origin_x, ray.dir_x);
@@ -122,14 +122,16 @@ void texture_coordinates(const SurfaceMesh& mesh, const std::uint32_t* v, const 
 void surface_sample(const SurfaceMesh& mesh, const CameraRays& rays, const Ray& ray, SurfaceBlock& block,
                     int at) {
     const std::uint32_t t = block.triangle[at];
-    const SurfaceTriangle& surface = mesh.surface[t];
+    const SurfaceTriangle& surface = mesh.triangles[t];
     Store out{block, at};
     out.position(ray.origin + ray.dir * view_distance(rays, block.depth[at]));
 
-    Vec3f geometric{surface.normal[0], surface.normal[1], surface.normal[2]};
+    const Vec3f geometric = vec(surface.normal);
     Vec3f normal = geometric;
     if ((surface.info & (surface_smooth | surface_textured)) != 0) {
-        const std::uint32_t* v = mesh.corners + 3 * static_cast<std::size_t>(t);
+        const std::uint32_t* corners = mesh.corners + 3 * static_cast<std::size_t>(t);
+        const SurfaceVertex* const vertex[3] = {mesh.vertices + corners[0], mesh.vertices + corners[1],
+                                                mesh.vertices + corners[2]};
         // Positions are relative to the eye, which two floats hold per axis.
         const Vec3f eye = vector_of(rays.eye);
         const Vec3f eye_rest = {static_cast<float>(rays.eye[0] - static_cast<double>(eye.x)),
@@ -137,17 +139,17 @@ void surface_sample(const SurfaceMesh& mesh, const CameraRays& rays, const Ray& 
                                 static_cast<float>(rays.eye[2] - static_cast<double>(eye.z))};
         Vec3f corner[3];
         for (int k = 0; k < 3; ++k)
-            corner[k] = (corner_of(mesh.positions, v[k]) - eye) - eye_rest;
+            corner[k] = (vec(vertex[k]->position) - eye) - eye_rest;
         const RayTriangle m = ray_triangle(corner, ray.origin, ray.dir);
         const Barycentrics b = clamped(m);
         if ((surface.info & surface_smooth) != 0) {
-            const Vec3f n0 = corner_of(mesh.normals, v[0]);
-            const Vec3f sum = (n0 + (corner_of(mesh.normals, v[1]) - n0) * b.b1) +
-                              (corner_of(mesh.normals, v[2]) - n0) * b.b2;
+            const Vec3f n0 = vec(vertex[0]->normal);
+            const Vec3f sum =
+                (n0 + (vec(vertex[1]->normal) - n0) * b.b1) + (vec(vertex[2]->normal) - n0) * b.b2;
             const float square = dot(sum, sum);
             if (square > 1e-12f) normal = sum * (1.0f / std::sqrt(square));
         }
-        if ((surface.info & surface_textured) != 0) texture_coordinates(mesh, v, m, ray, b, block, at);
+        if ((surface.info & surface_textured) != 0) texture_coordinates(vertex, m, ray, b, block, at);
     }
 
     // Seen from behind: both normals turn to the viewer.
@@ -178,7 +180,7 @@ void surface_block(const SurfaceMesh& mesh, const CameraRays& rays, const TileRe
                 continue;
             }
             surface_sample(mesh, rays, ray, block, at);
-            const std::uint32_t info = mesh.surface[block.triangle[at]].info, bit = 1u << lane;
+            const std::uint32_t info = mesh.triangles[block.triangle[at]].info, bit = 1u << lane;
             covered |= bit;
             open |= (info & surface_open) != 0 ? bit : 0;
             textured |= (info & surface_textured) != 0 ? bit : 0;
