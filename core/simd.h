@@ -83,6 +83,18 @@ OBSCURA_INLINE void store(T* p, const Lanes<T>& v) {
     for (int k = 0; k < Lanes<T>::regs; ++k)
         v.r[k].store_unaligned(p + k * Lanes<T>::width);
 }
+/// Past the caches: for what is not read again soon. p must be aligned to 64 bytes.
+OBSCURA_INLINE void store_streaming(float* p, const F32& v) {
+#if defined(OBSCURA_ISA_avx512bw)
+    _mm512_stream_ps(p, v.r[0]);
+#elif defined(OBSCURA_ISA_avx2)
+    for (int k = 0; k < 2; ++k)
+        _mm256_stream_ps(p + 8 * k, v.r[k]);
+#else
+    for (int k = 0; k < 4; ++k)
+        _mm_stream_ps(p + 4 * k, v.r[k]);
+#endif
+}
 /// a0 b0 a1 b1 ... a15 b15.
 OBSCURA_INLINE void store_interleaved(float* p, const F32& a, const F32& b) {
 #if defined(OBSCURA_ISA_avx512bw)

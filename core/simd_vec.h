@@ -52,25 +52,27 @@ OBSCURA_INLINE void store3(float* x, float* y, float* z, const Vec3x16& v) {
 }
 using Float16 = float __attribute__((vector_size(64)));
 
-/// x0 y0 z0 x1 y1 z1 ... x15 y15 z15.
-OBSCURA_INLINE void store_interleaved(float* p, const Vec3x16& v) {
+/// x0 y0 z0 x1 y1 z1 ... x15 y15 z15, in three.
+OBSCURA_INLINE Vec3x16 interleaved(const Vec3x16& v) {
     Float16 x, y, z;
+    Vec3x16 out;
     __builtin_memcpy(&x, &v.x, sizeof x);
     __builtin_memcpy(&y, &v.y, sizeof y);
     __builtin_memcpy(&z, &v.z, sizeof z);
     const Float16 xy0 = __builtin_shufflevector(x, y, 0, 16, 0, 1, 17, 0, 2, 18, 0, 3, 19, 0, 4, 20, 0, 5);
     const Float16 xyz0 =
         __builtin_shufflevector(xy0, z, 0, 1, 16, 3, 4, 17, 6, 7, 18, 9, 10, 19, 12, 13, 20, 15);
-    __builtin_memcpy(p + 0, &xyz0, sizeof xyz0);
+    __builtin_memcpy(&out.x, &xyz0, sizeof xyz0);
     const Float16 xy1 = __builtin_shufflevector(x, y, 21, 0, 6, 22, 0, 7, 23, 0, 8, 24, 0, 9, 25, 0, 10, 26);
     const Float16 xyz1 =
         __builtin_shufflevector(xy1, z, 0, 21, 2, 3, 22, 5, 6, 23, 8, 9, 24, 11, 12, 25, 14, 15);
-    __builtin_memcpy(p + 16, &xyz1, sizeof xyz1);
+    __builtin_memcpy(&out.y, &xyz1, sizeof xyz1);
     const Float16 xy2 =
         __builtin_shufflevector(x, y, 0, 11, 27, 0, 12, 28, 0, 13, 29, 0, 14, 30, 0, 15, 31, 0);
     const Float16 xyz2 =
         __builtin_shufflevector(xy2, z, 26, 1, 2, 27, 4, 5, 28, 7, 8, 29, 10, 11, 30, 13, 14, 31);
-    __builtin_memcpy(p + 32, &xyz2, sizeof xyz2);
+    __builtin_memcpy(&out.z, &xyz2, sizeof xyz2);
+    return out;
 }
 /// a + (b - a) t.
 OBSCURA_INLINE Vec3x16 mix(const Vec3x16& a, const Vec3x16& b, const F32& t) {

@@ -19,7 +19,7 @@ namespace obscura {
 /// One view of a shadow map, for receivers relative to the eye.
 struct PcfView {
     double to_map[4][4];            ///< LightView::to_map after the shift by the eye
-    const float* stored = nullptr;  ///< size x size depths, row by row
+    const float* stored = nullptr;  ///< size x size depths, in blocks as StoredDepths has them
     std::int32_t size = 0;
     bool perspective = false;
     double near_w = 0;    ///< perspective: receivers nearer than this are lit

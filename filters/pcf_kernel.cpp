@@ -61,25 +61,32 @@ OBSCURA_INLINE I32 clamped(const I32& a, std::int32_t low, std::int32_t high) {
     return min(max(a, splat(low)), splat(high));
 }
 
-/// Mean over the kernel; `side` is known at compile time in each caller.
-template <bool inside_map>
+/// Mean over the kernel.
+template <int side, bool inside_map>
 OBSCURA_INLINE F32 filtered(const PcfView& view, const Receivers16& r, const I32& ix, const I32& iy,
-                            const F32& fx, const F32& fy, int side) {
-    const std::int32_t reach = side / 2, last = view.size - 1;
+                            const F32& fx, const F32& fy) {
+    constexpr std::int32_t reach = side / 2;
+    [[maybe_unused]] const std::int32_t last = view.size - 1;
+    // Place of a texel in its blocks of 4 x 4: a part for its column, a part for its row.
+    I32 column[side], row_start[side];
+    Mask column_inside[side], row_inside[side];
+    for (std::int32_t k = 0; k < side; ++k) {
+        I32 x = ix + splat(k - reach), y = iy + splat(k - reach);
+        if constexpr (!inside_map) {
+            column_inside[k] = between(x, 0, last);
+            row_inside[k] = between(y, 0, last);
+            x = clamped(x, 0, last);
+            y = clamped(y, 0, last);
+        }
+        column[k] = shift_left<4>(shift_right<2>(x)) + (x & splat(std::int32_t{3}));
+        row_start[k] = shift_right<2>(y) * splat(view.size * 4) + shift_left<2>(y & splat(std::int32_t{3}));
+    }
     F32 sum = splat(0.0f);
     for (std::int32_t j = 0; j < side; ++j) {
         F32 row = splat(0.0f);
         for (std::int32_t i = 0; i < side; ++i) {
-            const I32 x = ix + splat(i - reach), y = iy + splat(j - reach);
-            Mask lit;
-            if constexpr (inside_map) {
-                const F32 stored = gather(view.stored, y * splat(view.size) + x);
-                lit = less_equal(r.depth, stored);
-            } else {
-                const I32 index = clamped(y, 0, last) * splat(view.size) + clamped(x, 0, last);
-                const Mask inside = between(x, 0, last) & between(y, 0, last);
-                lit = less_equal(r.depth, gather(view.stored, index)) | ~inside;
-            }
+            Mask lit = less_equal(r.depth, gather(view.stored, column[i] + row_start[j]));
+            if constexpr (!inside_map) lit = lit | ~(column_inside[i] & row_inside[j]);
             row = row + select(lit, tap_weight(i, side, fx), splat(0.0f));
         }
         sum = sum + row * tap_weight(j, side, fy);
@@ -97,9 +104,9 @@ OBSCURA_INLINE F32 filtered_side(const PcfView& view, const Receivers16& r, cons
         // Lanes that nobody asked about must not read beyond the map.
         ix = clamped(ix, low, high);
         iy = clamped(iy, low, high);
-        return filtered<true>(view, r, ix, iy, fx, fy, side);
+        return filtered<side, true>(view, r, ix, iy, fx, fy);
     }
-    return filtered<false>(view, r, ix, iy, fx, fy, side);
+    return filtered<side, false>(view, r, ix, iy, fx, fy);
 }
 
 OBSCURA_INLINE F32 lookup(const PcfView& view, int side, const Vec3x16& p, const Vec3x16& offset_way,

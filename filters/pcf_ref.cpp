@@ -53,6 +53,11 @@ float tap_weight(int k, int side, float f) {
     return k == side - 1 ? f : 1.0f;
 }
 
+/// Twin of StoredDepths::index().
+std::int64_t block_index(std::int64_t x, std::int64_t y, std::int64_t size) {
+    return ((y / 4) * (size / 4) + x / 4) * 16 + (y % 4) * 4 + x % 4;
+}
+
 /// Calls tap(x, y, weight_x, weight_y) for each texel of the kernel and returns the filtered visibility.
 template <class Tap>
 float filtered(const Receiver& r, int side, Tap&& tap) {
@@ -104,7 +109,7 @@ PcfTrace trace_pcf(const SurfaceBlock& s, const PcfLight& light, int at) {
         PcfTap tap{x, y, weight, false, 1.0f, true};
         tap.inside = x >= 0 && y >= 0 && x < view.size && y < view.size;
         if (tap.inside) {
-            tap.stored = view.stored[static_cast<std::int64_t>(y) * view.size + x];
+            tap.stored = view.stored[block_index(x, y, view.size)];
             tap.lit = r.depth <= tap.stored;
         }
         trace.taps.push_back(tap);

@@ -3,8 +3,8 @@
 namespace obscura {
 namespace {
 
-PcfView pcf_view(const LightView& view, const Raster<float>& stored, Vec3d eye, double offset_texels) {
-    CHECK(view.width == view.height && stored.width == view.width && stored.height == view.height);
+PcfView pcf_view(const LightView& view, const StoredDepths& stored, Vec3d eye, double offset_texels) {
+    CHECK(view.width == view.height && stored.size == view.width);
     PcfView v{};
     for (int r = 0; r < 4; ++r) {
         const auto& m = view.to_map.m[r];
@@ -12,7 +12,7 @@ PcfView pcf_view(const LightView& view, const Raster<float>& stored, Vec3d eye, 
             v.to_map[r][c] = m[c];
         v.to_map[r][3] = (m[0] * eye.x + m[1] * eye.y) + (m[2] * eye.z + m[3]);
     }
-    v.stored = stored.pixels.data();
+    v.stored = stored.depth.data();
     v.size = view.width;
     v.perspective = view.perspective;
     v.near_w = view.near_w;

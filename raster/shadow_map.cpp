@@ -8,15 +8,29 @@
 namespace obscura {
 namespace {
 
+/// Middles of the tile's intervals, block by block.
+void store_tile(const DepthInterval* interval, const TileRect& tile, StoredDepths& stored) {
+    const int width = std::min(layer_tile_side, stored.size - tile.x0);
+    const int height = std::min(layer_tile_side, stored.size - tile.y0);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; x += 4) {
+            const DepthInterval* from = interval + y * layer_tile_side + x;
+            std::transform(from, from + 4, &stored.depth[stored.index(tile.x0 + x, tile.y0 + y)],
+                           stored_depth);
+        }
+    }
+}
+
 void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, const Exec& exec,
-                 RasterScratch& scratch, Raster<float>& stored) {
+                 RasterScratch& scratch, StoredDepths& stored) {
+    CHECK(view.width == view.height && view.width % 4 == 0);
     SetupParams params;
     params.only_casters = true;
     setup_triangles(mesh, view, params, exec, scratch.setup);
     bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
-    stored.reset(view.width, view.height);
+    stored.size = view.width;
+    stored.depth.reset(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
     const TileBins& bins = scratch.bins;
-    const ImageView<float> out = stored.view();
     parallel_for(static_cast<std::size_t>(bins.rows), exec, [&](std::size_t tile_row) {
         IntervalTiler tiler;
         alignas(64) DepthInterval interval[layer_tile_texels];
@@ -25,12 +39,7 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
             const TileRect tile{column * layer_tile_side, row * layer_tile_side, layer_tile_side,
                                 layer_tile_side};
             tiler.run(scratch.setup, bins.list(column, row), tile, receivers, exec.isa, interval);
-            const int width = std::min(layer_tile_side, view.width - tile.x0);
-            const int height = std::min(layer_tile_side, view.height - tile.y0);
-            for (int y = 0; y < height; ++y) {
-                const DepthInterval* from = interval + y * layer_tile_side;
-                std::transform(from, from + width, &out(tile.x0, tile.y0 + y), stored_depth);
-            }
+            store_tile(interval, tile, stored);
         }
     });
 }

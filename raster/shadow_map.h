@@ -17,10 +17,24 @@
 
 namespace obscura {
 
+/// Depths of a square map in blocks of 4 x 4 texels, one cache line each: neighbours in a picture lie in any
+/// direction on the map, and find their texels in few lines. `size` is a multiple of 4.
+struct StoredDepths {
+    int size = 0;
+    Buffer<float> depth;
+
+    std::size_t index(int x, int y) const {
+        const auto block = static_cast<std::size_t>(y / 4) * static_cast<std::size_t>(size / 4) +
+                           static_cast<std::size_t>(x / 4);
+        return block * 16 + static_cast<std::size_t>((y % 4) * 4 + x % 4);
+    }
+    float at(int x, int y) const { return depth[index(x, y)]; }
+};
+
 /// One view for directional lights and spots, six for points (cube_face() says which sees a direction).
 struct ShadowMap {
     std::vector<LightView> views;
-    std::vector<Raster<float>> stored;  ///< as views: depth of each texel, 1 where nothing is
+    std::vector<StoredDepths> stored;  ///< as views: depth of each texel, 1 where nothing is
 };
 
 /// Views that a light's map needs: for directional lights and the sun fitted to `bounds` (of casters and
