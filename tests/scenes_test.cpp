@@ -1,4 +1,5 @@
-// The scenes that come with the project: they build, they are as big as they say, and what ought to be solid is.
+// The scenes that come with the project: they build, they are as big as they say, and what ought to be solid
+// is.
 
 #include <gtest/gtest.h>
 
