@@ -56,11 +56,20 @@ void Progress::begin(std::string label_, double from_, double to_) {
     to = to_;
 }
 
+double Progress::seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 void Progress::update(double fraction) {
     if (style == Style::silent) return;
     const double share = from + (to - from) * std::clamp(fraction, 0.0, 1.0);
+    // What was done before the first sign of progress (shadow maps, setup) says nothing about the rate.
+    std::call_once(first, [&] {
+        first_s = seconds();
+        first_share = share;
+    });
     if (style == Style::live) {
-        const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
+        const auto now = static_cast<std::int64_t>(seconds() * 1000);
         std::int64_t due = next_ms.load();
         if (now < due || !next_ms.compare_exchange_strong(due, now + live_interval_ms)) return;
     } else {
@@ -78,11 +87,12 @@ void Progress::finish() {
 
 void Progress::show(double share) {
     const std::lock_guard lock(mutex);
-    const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+    const double elapsed = seconds();
     std::string line =
         fmt::format("{}: {:3.0f} %  {}", label, std::floor(share * 100), duration_text(elapsed));
-    if (share > 0 && share < 1 && elapsed > worth_guessing_s) {
-        line += fmt::format(", about {} left", duration_text(elapsed / share * (1 - share)));
+    const double known_s = elapsed - first_s, known = share - first_share;
+    if (known > 0 && share < 1 && known_s > worth_guessing_s) {
+        line += fmt::format(", about {} left", duration_text(known_s / known * (1 - share)));
     }
     if (style == Style::live) {
         std::fprintf(stream, "\r%s\x1b[K", line.c_str());

@@ -38,6 +38,7 @@ class Progress {
 
   private:
     void show(double share);
+    double seconds() const;  ///< since the beginning
 
     using Clock = std::chrono::steady_clock;
     std::FILE* stream;
@@ -48,6 +49,8 @@ class Progress {
     std::atomic<int> next_tenth{1};        ///< lines: nothing is written before this many tenths
     std::string label;
     double from = 0, to = 1;
+    std::once_flag first;
+    double first_s = 0, first_share = 0;  ///< at the first update
     bool line_open = false;
 };
 

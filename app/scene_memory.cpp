@@ -12,13 +12,13 @@ namespace {
 
 constexpr std::int64_t vertex_bytes = sizeof(Vec3f) * 2 + sizeof(Vec2f);
 constexpr std::int64_t triangle_bytes = sizeof(Triangle) + 4 * sizeof(std::uint32_t) + sizeof(Plane);
-constexpr std::int64_t sample_bytes = 64;  // G-buffer: depth, normal, uv, material, object, triangle, colour
-constexpr std::int64_t pixel_bytes =
-    32;  // resolved colour, its neighbours in the filter chain, encoded output
+// Tiles resolve their samples at once: a pixel keeps its radiance and channels, and its codes while they are
+// encoded (raw, filtered, compressed).
+constexpr std::int64_t pixel_bytes = 48 + 24;
 constexpr std::int64_t depth_bytes = 4;
 
 std::int64_t frame_bytes(const RenderSettings& render) {
-    return std::int64_t{render.width} * render.height * (render.samples * sample_bytes + pixel_bytes);
+    return std::int64_t{render.width} * render.height * pixel_bytes;
 }
 
 double mib(std::int64_t bytes) {

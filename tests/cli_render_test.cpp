@@ -235,7 +235,7 @@ TEST(Render, MistakesAreToldBeforeTheWork) {
              {{"-t", "-1"}, 2, "--threads: '-1' is not a whole number"},
              {{"-D", "camera.vfov=3"}, 3, "-D camera.vfov=3: "},
              {{"-D", "camera"}, 3, "-D camera: "},
-             {{"--limit-memory", "1"}, 4, "s.toml: needs about "}}) {
+             {{"--limit-memory", "1", "--size", "999x999"}, 4, "s.toml: needs about "}}) {
         Names line{"render", "s.toml"};
         line.insert(line.end(), c.flags.begin(), c.flags.end());
         const Outcome run = run_in(folder, line);
