@@ -33,7 +33,8 @@ Mesh copies_on_slab(const Mesh& part, int copies, int columns) {
     const double half_x = 0.5 * cell * columns, half_z = 0.5 * cell * rows;
     Mesh mesh = box({-half_x, -0.05 * copy_height_m, -half_z}, {half_x, 0, half_z});
     for (int i = 0; i < copies; ++i) {
-        const double x = (i % columns + 0.5) * cell - half_x, z = (i / columns + 0.5) * cell - half_z;
+        const int column = i % columns, row = i / columns;
+        const double x = (column + 0.5) * cell - half_x, z = (row + 0.5) * cell - half_z;
         add_part(mesh, part, translation(x, 0, z) * rotation_y(45.0 * i) * to_origin);
     }
     mesh.uvs.clear();  // scans have none
@@ -46,7 +47,8 @@ Mesh box_city(int columns, int rows) {
     Mesh mesh = box({-half_x, -2, -half_z}, {half_x, 0, half_z});
     Random random(2016);
     for (int i = 0; i < columns * rows; ++i) {
-        const double x = (i % columns + 0.5) * cell - half_x, z = (i / columns + 0.5) * cell - half_z;
+        const int column = i % columns, row = i / columns;
+        const double x = (column + 0.5) * cell - half_x, z = (row + 0.5) * cell - half_z;
         const double width = random.range(0.25, 0.45) * cell, depth = random.range(0.25, 0.45) * cell;
         // Mostly low houses, now and then a tower.
         const double tall = random.uniform();

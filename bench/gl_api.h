@@ -26,7 +26,7 @@ namespace obscura {
 // clang-format on
 
 struct GlApi {
-#define OBSCURA_GL_MEMBER(NAME) decltype(&::gl##NAME) NAME = nullptr;
+#define OBSCURA_GL_MEMBER(NAME) decltype(&::gl##NAME) NAME = nullptr;  // NOLINT: a name takes no parentheses
     OBSCURA_GL_FUNCTIONS(OBSCURA_GL_MEMBER)
 #undef OBSCURA_GL_MEMBER
 };
