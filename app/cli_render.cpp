@@ -48,6 +48,8 @@ int run_render(const Arguments& arguments) {
         "none");
     flags.text("--aov-format", "KIND", aov_kind, "pfm (numbers as they are) or png (mapped to look at).",
                "pfm");
+    flags.text("--pixel", "X,Y", options.pixel,
+               "Print every number that made this pixel of the first frame, and write nothing.", "off");
     flags.group("Execution");
     flags.whole("-t,--threads", "N", threads, 0, most_threads, "Threads; 0 = all of the machine.", "0");
     flags.text("--isa", "ISA", isa,

@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <new>
+#include <optional>
 
 #include "app/flag_values.h"
 #include "app/keyframes.h"
 #include "app/picture_file.h"
+#include "app/pixel_trace.h"
 #include "app/progress.h"
 #include "app/render_frame.h"
 #include "app/render_stats.h"
@@ -44,6 +47,7 @@ struct RenderPlan {
     std::vector<int> frames;
     std::vector<PlannedOutput> outputs;
     FrameOptions frame_options;
+    std::optional<PixelPlace> pixel;  ///< to be explained instead of rendering
     Existing existing = Existing::refuse;
 };
 
@@ -85,6 +89,9 @@ RenderPlan plan_render(const RenderOptions& options) {
     if (!options.crop.empty()) {
         const PixelRect r = crop_value("--crop", options.crop, plan.render.width, plan.render.height);
         plan.frame_options.crop = {r.x0, r.y0, r.width(), r.height()};
+    }
+    if (!options.pixel.empty()) {
+        plan.pixel = pixel_value("--pixel", options.pixel, plan.render.width, plan.render.height);
     }
     plan.outputs = plan_outputs({options.output, options.aovs, options.aov_kind,
                                  options.scene.stem().string(), plan.frames.size() > 1},
@@ -189,15 +196,29 @@ void render_frames(RenderPlan& plan, Scene& scene, const RenderOptions& options,
     }
 }
 
+/// Prints what made one pixel of the first frame.
+void explain_pixel(const RenderPlan& plan, Scene& scene, const Exec& exec) {
+    const int frame = plan.frames.front();
+    set_frame(scene, plan.document, frame);
+    const PixelTrace trace = in_stage(fmt::format("tracing a pixel of frame {}", frame),
+                                      [&] { return trace_pixel(scene, plan.pixel->x, plan.pixel->y, exec); });
+    std::fwrite(trace.text.data(), 1, trace.text.size(), stdout);
+}
+
 }  // namespace
 
 int render_command(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     RenderPlan plan = in_stage("reading the scene", [&] { return plan_render(options); });
-    check_outputs(plan, options);
+    if (!plan.pixel) check_outputs(plan, options);
     Scene scene = in_stage("loading the scene", [&] {
         return build_scene(plan.document, FileAccess{plan.document.folder, options.allowed_paths});
     });
+
+    if (plan.pixel) {
+        explain_pixel(plan, scene, options.exec);
+        return 0;
+    }
 
     RenderReport report;
     report.scene = options.scene.string();

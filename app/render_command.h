@@ -20,6 +20,7 @@ struct RenderOptions {
     FileKind aov_kind = FileKind::pfm;
     std::string frames;                ///< "1-48x2", "1,5,9-12"; empty: all of the scene
     std::string crop;                  ///< "x0,y0,x1,y1"; empty: everything
+    std::string pixel;                 ///< "x,y": print what made it, write nothing; empty: off
     std::filesystem::path stats_json;  ///< empty: none
     bool overwrite = false;
     bool quiet = false;

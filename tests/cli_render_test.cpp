@@ -213,6 +213,25 @@ TEST(Render, MessagesFitTheirListener) {
     EXPECT_NE(verbose.find("shadow maps"), std::string::npos) << verbose;
 }
 
+TEST(Render, APixelIsExplainedAndNothingWritten) {
+    const SceneFolder folder;
+    folder.write("s.png", "mine");
+    const Outcome run = run_in(folder, {"render", "s.toml", "--pixel", "32,32"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_EQ(folder.listing(), (Names{"s.png", "s.toml"}));
+    // The codes it ends with are those of the picture.
+    ASSERT_EQ(run_in(folder, {"render", "s.toml", "-q", "-o", "p.png"}).code, 0);
+    const Rgba8 p = png(folder / "p.png")(32, 32);
+    const std::string codes =
+        "sRGB " + std::to_string(p.r) + " " + std::to_string(p.g) + " " + std::to_string(p.b) + "\n";
+    EXPECT_NE(run.out.find(codes), std::string::npos) << codes << " in\n" << run.out;
+    EXPECT_NE(run.out.find("triangle"), std::string::npos) << run.out;
+    // So are they for every instruction set.
+    EXPECT_EQ(run_in(folder, {"render", "s.toml", "--pixel", "32,32", "--isa", "ref", "-t", "1"}).out,
+              run.out);
+}
+
 TEST(Render, MistakesAreToldBeforeTheWork) {
     const SceneFolder folder;
     std::filesystem::create_directory(folder / "dir.png");
@@ -230,6 +249,7 @@ TEST(Render, MistakesAreToldBeforeTheWork) {
              {{"--isa", set}, 2, "--isa: "},
              {{"--crop", "0,0,65,48"}, 2, "--crop: '0,0,65,48' is not a rectangle"},
              {{"--crop", "-1,0,5,5"}, 2, "--crop: '-1,0,5,5' is not a rectangle"},
+             {{"--pixel", "64,0"}, 2, "--pixel: '64,0' is not inside the 64 x 48 picture"},
              {{"--aov", "dept"}, 2, "--aov: 'dept' is not one of"},
              {{"--aov-format", "tiff"}, 2, "--aov-format: 'tiff' is not png or pfm"},
              {{"-t", "-1"}, 2, "--threads: '-1' is not a whole number"},
