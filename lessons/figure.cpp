@@ -192,6 +192,33 @@ void Figure::ticks(const Cells& cells, int step) {
         text(cells.at(0, y) + Vec2d{-9, 4}, fmt::format("{}", y), style);
 }
 
+void Figure::image(int x, int y, const Image<Rgb8>& fine, int shrink) {
+    CHECK(x >= 0 && y >= 0 && x + fine.width / shrink <= picture.width &&
+          y + fine.height / shrink <= picture.height);
+    const int count = shrink * shrink;
+    for (int row = 0; row < fine.height / shrink; ++row) {
+        for (int column = 0; column < fine.width / shrink; ++column) {
+            int r = count / 2, g = count / 2, b = count / 2;
+            for (int i = 0; i < count; ++i) {
+                const Rgb8 c = fine(column * shrink + i % shrink, row * shrink + i / shrink);
+                r += c.r, g += c.g, b += c.b;
+            }
+            picture(x + column, y + row) = {static_cast<std::uint8_t>(r / count),
+                                            static_cast<std::uint8_t>(g / count),
+                                            static_cast<std::uint8_t>(b / count)};
+        }
+    }
+}
+
+void Figure::axes(const Plot& plot, std::string_view x_name, std::string_view y_name) {
+    const Box& b = plot.box;
+    fill(b, ink::panel);
+    arrow({b.x, b.y + b.h}, {b.x + b.w + 14, b.y + b.h}, {ink::dark, 1.5, 0});
+    arrow({b.x, b.y + b.h}, {b.x, b.y - 14}, {ink::dark, 1.5, 0});
+    text({b.x + b.w + 12, b.y + b.h + 18}, x_name, {9, ink::soft, Align::right, false, false});
+    text({b.x + 12, b.y - 8}, y_name, {9, ink::soft, Align::left, false, false});
+}
+
 void Figure::polygon(const std::vector<Vec2d>& corners, Rgb8 color, double alpha) {
     CHECK(corners.size() >= 3);
     const PixelBox all = pixels_around({corners}, 0, picture);
@@ -299,6 +326,9 @@ double Figure::legend(Vec2d at, const std::vector<LegendEntry>& entries) {
             case Mark::square:
                 fill({c.x - 8, c.y - 8, 16, 16}, e.color);
                 break;
+            case Mark::frame:
+                frame({c.x - 8, c.y - 8, 16, 16}, {e.color, 2.5, 0});
+                break;
             case Mark::dot:
                 disc(c, 6, e.color);
                 break;
@@ -318,8 +348,8 @@ double Figure::legend(Vec2d at, const std::vector<LegendEntry>& entries) {
                 line({c.x - 10, c.y}, {c.x + 10, c.y}, {e.color, 2, 4});
                 break;
         }
-        text({at.x + 26, at.y}, e.text, lettering::body);
-        at.x += 26 + text_width(e.text, lettering::body.cap_px) + 28;
+        text({at.x + 28, at.y}, e.text, lettering::body);
+        at.x += 28 + text_width(e.text, lettering::body.cap_px) + 28;
     }
     return at.x;
 }

@@ -54,6 +54,15 @@ struct Cells {
     }
 };
 
+/// A rectangle with coordinates of its own, y up.
+struct Plot {
+    Box box;
+    double x0 = 0, x1 = 1, y0 = 0, y1 = 1;
+    Vec2d at(double x, double y) const {
+        return {box.x + box.w * (x - x0) / (x1 - x0), box.y + box.h * (y1 - y) / (y1 - y0)};
+    }
+};
+
 struct Pen {
     Rgb8 color = ink::dark;
     double width_px = 1.5;
@@ -74,12 +83,13 @@ struct Lettering {
 namespace lettering {
 constexpr Lettering head{11.5, ink::dark, Align::left, true, false};
 constexpr Lettering body{};
+constexpr Lettering right{9.5, ink::dark, Align::right, false, false};
 constexpr Lettering bold{9.5, ink::dark, Align::left, true, false};
 constexpr Lettering tick{9, ink::soft, Align::centre, false, false};
 constexpr Lettering small{7.5, ink::dark, Align::centre, false, true};
 }  // namespace lettering
 
-enum class Mark { square, dot, ring, up, down, line, dashes };
+enum class Mark { square, frame, dot, ring, up, down, line, dashes };
 struct LegendEntry {
     Mark mark = Mark::square;
     Rgb8 color;
@@ -95,6 +105,10 @@ class Figure {
     void grid(const Cells& cells, const Pen& pen);
     /// Texel numbers above and left of the cells, every `step`.
     void ticks(const Cells& cells, int step);
+    /// `fine` with its upper left corner at (x, y), every shrink x shrink of its pixels averaged to one.
+    void image(int x, int y, const Image<Rgb8>& fine, int shrink);
+    /// Left and lower axis, with what they measure at their ends.
+    void axes(const Plot& plot, std::string_view x_name, std::string_view y_name);
     /// Any simple polygon of at least three corners.
     void polygon(const std::vector<Vec2d>& corners, Rgb8 color, double alpha = 1);
     void line(Vec2d from, Vec2d to, const Pen& pen = {});

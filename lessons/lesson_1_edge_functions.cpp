@@ -12,6 +12,7 @@
 #include "core/topology.h"
 #include "lessons/figure.h"
 #include "lessons/ladder.h"
+#include "lessons/texel_space.h"
 #include "raster/coverage.h"
 #include "raster/setup.h"
 
@@ -31,11 +32,8 @@ std::vector<TriangleRecord> two_records(int columns, int rows, const Exec& exec)
     mesh.positions = {apex_p, a, b, apex_q};
     mesh.triangles = {{{0, 1, 2}}, {{3, 2, 1}}};
     analyse_topology(mesh);
-    View texels;  // the identity: world positions are texels
-    texels.width = columns;
-    texels.height = rows;
     TriangleSetup setup;
-    setup_triangles(mesh, texels, {}, exec, setup);
+    setup_triangles(mesh, texel_view(columns, rows), {}, exec, setup);
     const TriangleRecord* first = setup.records.data() + setup.blocks.front().begin;
     return {first, first + setup.blocks.front().count};
 }

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array golden{"0eb9c288ee6afbf4"};
+constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "7c9c081cfe7aeee7"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
