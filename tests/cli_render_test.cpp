@@ -213,6 +213,24 @@ TEST(Render, MessagesFitTheirListener) {
     EXPECT_NE(verbose.find("shadow maps"), std::string::npos) << verbose;
 }
 
+TEST(Render, TerminalsSeeOneLineThatRenewsItself) {
+    const SceneFolder folder;
+    const auto said = [&](std::vector<std::string> more) {
+        std::vector<std::string> line{"render", "s.toml", "--overwrite", "--size", "640x480"};
+        line.insert(line.end(), more.begin(), more.end());
+        Program program(line);
+        program.folder = folder.path;
+        program.err_on_terminal = true;
+        program.environment = {"TERM=xterm"};
+        return program.run().err;
+    };
+    const std::string live = said({});
+    EXPECT_EQ(live.find("\rframe 1 (1 of 1): "), 0u) << live;
+    EXPECT_NE(live.find("\r\x1b[Kframe 1 in "), std::string::npos) << live;
+    EXPECT_EQ(std::count(live.begin(), live.end(), '\n'), 1) << live;
+    EXPECT_EQ(said({"-q"}), "");
+}
+
 TEST(Render, APixelIsExplainedAndNothingWritten) {
     const SceneFolder folder;
     folder.write("s.png", "mine");

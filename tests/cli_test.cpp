@@ -189,6 +189,19 @@ TEST(Cli, DumpedScenesReadBack) {
     EXPECT_EQ(run_in(folder, {"dump", "t.toml"}).out, first.out);
 }
 
+TEST(Cli, OnlyTerminalsSeeColourAndOnlyIfWanted) {
+    const auto error = [](std::vector<std::string> environment) {
+        Program program({"paint"});
+        program.err_on_terminal = true;
+        program.environment = std::move(environment);
+        return program.run().err;
+    };
+    const std::string plain = "obscura: error: unknown command 'paint' (see 'obscura --help')\r\n";
+    EXPECT_EQ(error({"TERM=xterm", "NO_COLOR="}).find("obscura: \x1b[1;31merror:\x1b[0m unknown"), 0u);
+    EXPECT_EQ(error({"TERM=xterm", "NO_COLOR=1"}), plain);
+    EXPECT_EQ(error({"TERM=dumb", "NO_COLOR="}), plain);
+}
+
 TEST(Cli, ClosedPipesEndQuietly) {
     Program program({"dump", "--format"});
     program.out_broken_pipe = true;

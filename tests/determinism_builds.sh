@@ -35,8 +35,8 @@ fi
 pictures "$release" release
 failed=0
 for preset in $presets; do
-    cmake --preset "$preset" > "$out/log" 2>&1 || { cat "$out/log"; exit 1; }
-    cmake --build --preset "$preset" --target obscura > "$out/log" 2>&1 || { cat "$out/log"; exit 1; }
+    cmake --preset "$preset" > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
+    cmake --build --preset "$preset" --target obscura > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
     pictures "build/$preset/app/obscura" "$preset"
     for expected in "$out"/release-*; do
         actual="$out/$preset-${expected#"$out"/release-}"

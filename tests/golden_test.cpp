@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 const fs::path scene_folder = fs::path(OBSCURA_SOURCE_DIR) / "scenes/tests";
 const fs::path golden_folder = fs::path(OBSCURA_SOURCE_DIR) / "tests/golden";
-const fs::path failure_folder = "golden_failures";
+const fs::path failure_folder = fs::path(OBSCURA_BINARY).parent_path().parent_path() / "golden_failures";
 constexpr std::int64_t largest_reference = 30 * 1024;
 
 using Hashes = std::map<std::string, std::string>;

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -94,6 +95,7 @@ class Program {
     std::filesystem::path folder = ".";    ///< where it runs
     std::string out_target;                ///< file or device for standard output instead of capturing it
     bool out_closed = false;               ///< starts without a standard output
+    bool err_on_terminal = false;          ///< standard error is a terminal
     bool out_broken_pipe = false;          ///< standard output is a pipe nobody reads
     std::optional<rlim_t> memory_bytes;    ///< ulimit -v
     std::vector<std::string> environment;  ///< NAME=value on top of ours
@@ -102,6 +104,13 @@ class Program {
 
     /// Starts the process. Its streams go to files in a folder of their own.
     void start() {
+        if (err_on_terminal) {
+            terminal = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+            ASSERT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
+            terminal_name = ::ptsname(terminal);
+            // Held open until the end, so that what was said is not lost when the process closes its side.
+            held = ::open(terminal_name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        }
         process = ::fork();
         if (process == 0) become_obscura();
     }
@@ -115,17 +124,39 @@ class Program {
     std::string err_so_far() const { return file_text(streams / "err"); }
 
     Outcome wait() {
+        std::string on_terminal;
+        while (terminal >= 0 && running())
+            read_terminal(on_terminal);
+        if (terminal >= 0) read_terminal(on_terminal);
         int status = 0;
         ::waitpid(process, &status, 0);
         return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), file_text(streams / "out"),
-                file_text(streams / "err")};
+                terminal >= 0 ? on_terminal : file_text(streams / "err")};
     }
     Outcome run() {
         start();
         return wait();
     }
 
+    ~Program() {
+        if (terminal >= 0) ::close(terminal);
+        if (held >= 0) ::close(held);
+    }
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+
   private:
+    /// Takes what is there, after waiting for it a little.
+    void read_terminal(std::string& text) const {
+        pollfd ready{terminal, POLLIN, 0};
+        char block[4096];
+        while (::poll(&ready, 1, 50) > 0) {
+            const ssize_t n = ::read(terminal, block, sizeof block);
+            if (n <= 0) return;
+            text.append(block, static_cast<std::size_t>(n));
+        }
+    }
+
     static void redirect(const std::string& target, int to) {
         const int fd = ::open(target.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
         if (fd < 0) ::_exit(120);
@@ -135,7 +166,7 @@ class Program {
 
     [[noreturn]] void become_obscura() const {
         if (::chdir(folder.c_str()) != 0) ::_exit(121);
-        redirect((streams / "err").string(), 2);
+        redirect(err_on_terminal ? terminal_name : (streams / "err").string(), 2);
         redirect(out_target.empty() ? (streams / "out").string() : out_target, 1);
         if (out_broken_pipe) {
             int ends[2];
@@ -165,6 +196,8 @@ class Program {
     Folder streams_folder;
     const std::filesystem::path& streams = streams_folder.path;
     pid_t process = -1;
+    int terminal = -1, held = -1;
+    std::string terminal_name;
 };
 
 /// obscura ARGUMENTS in `folder`.
