@@ -1,59 +1,34 @@
 // Stages of the rasterizer one by one, with Google Benchmark: where the time of a map goes.
-//   build/release/bench/obscura_micro_bench --benchmark_filter=City
+//   build/release/bench/obscura_micro_bench --benchmark_filter=city
 
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
-#include "app/obj_file.h"
+#include "bench/bench_recipes.h"
 #include "core/topology.h"
 #include "raster/depth_map.h"
 #include "raster/interval_map.h"
 #include "raster/view.h"
-#include "scenes/random.h"
-#include "scenes/shapes.h"
 
 namespace obscura {
 namespace {
 
-/// side x side closed boxes of varied size on a slab: 12 triangles each.
-Mesh box_city(int side) {
-    Mesh mesh;
-    Random random(1);
-    const auto add = [&](Vec3d low, Vec3d high) { append_mesh(mesh, box(low, high)); };
-    add({0.0, -1.0, 0.0}, {10.0 * side, 0.0, 10.0 * side});
-    for (int i = 0; i < side * side; ++i) {
-        const double x = 10.0 * (i % side) + random.range(0.5, 3),
-                     z = 10.0 * (i / side) + random.range(0.5, 3);
-        add({x, 0.0, z}, {x + random.range(3, 6.5), random.range(3, 30), z + random.range(3, 6.5)});
+const Mesh& mesh_named(const std::string& name) {
+    static std::map<std::string, Mesh> made;
+    const auto found = made.find(name);
+    if (found != made.end()) return found->second;
+    Mesh& mesh = made[name];
+    const std::filesystem::path data = OBSCURA_SOURCE_DIR "/../shared/data";
+    for (const BenchRecipe& recipe :
+         bench_recipes(std::filesystem::exists(data) ? std::optional(data) : std::nullopt, false)) {
+        if (recipe.name == name) mesh = recipe.make();
     }
     analyse_topology(mesh);
     return mesh;
-}
-
-/// A scan from the data folder on a slab; empty when the folder is not there.
-Mesh scan(const std::string& name) {
-    const std::filesystem::path root = OBSCURA_SOURCE_DIR "/../shared/data";
-    if (!std::filesystem::exists(root / name)) return {};
-    Mesh mesh = load_obj(root / name, FileAccess{root, {}}, Limits{}).mesh;
-    const Bounds b = bounds_of(mesh);
-    const Vec3d side = (b.high - b.low) * 0.2;
-    Mesh slab = box({b.low.x - side.x, b.low.y - side.y, b.low.z - side.z},
-                    {b.high.x + side.x, b.low.y, b.high.z + side.z});
-    analyse_topology(slab);
-    append_mesh(mesh, slab);
-    return mesh;
-}
-
-const Mesh& mesh_named(const std::string& name) {
-    static std::map<std::string, Mesh> made;
-    if (!made.contains(name)) {
-        made[name] =
-            name == "city" ? box_city(30) : (name == "bigcity" ? box_city(222) : scan("meshes/bunny.obj"));
-    }
-    return made[name];
 }
 
 struct Setting {
@@ -104,20 +79,29 @@ void IntervalMap(benchmark::State& state, const std::string& name) {
         interval_map(s.mesh, s.view, {}, s.exec, scratch, out.view());
 }
 
-#define OBSCURA_MICRO(stage)                                                                              \
-    BENCHMARK_CAPTURE(stage, City, "city")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime(); \
-    BENCHMARK_CAPTURE(stage, BigCity, "bigcity")                                                          \
-        ->Arg(1)                                                                                          \
-        ->Arg(2)                                                                                          \
-        ->Unit(benchmark::kMillisecond)                                                                   \
-        ->UseRealTime();                                                                                  \
-    BENCHMARK_CAPTURE(stage, Bunny, "bunny")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()
-OBSCURA_MICRO(Setup);
-OBSCURA_MICRO(Bin);
-OBSCURA_MICRO(DepthMap);
-OBSCURA_MICRO(IntervalMap);
+void add(const std::string& stage, void (*run)(benchmark::State&, const std::string&)) {
+    for (const std::string scene : {"city", "bigcity", "town", "bunny", "bunny8"}) {
+        benchmark::RegisterBenchmark((stage + "/" + scene).c_str(), run, scene)
+            ->Arg(1)
+            ->Arg(2)
+            ->Unit(benchmark::kMillisecond)
+            ->UseRealTime();
+    }
+}
 
 }  // namespace
+
+void add_all() {
+    add("Setup", Setup);
+    add("Bin", Bin);
+    add("DepthMap", DepthMap);
+    add("IntervalMap", IntervalMap);
+}
+
 }  // namespace obscura
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    obscura::add_all();
+    benchmark::RunSpecifiedBenchmarks();
+}

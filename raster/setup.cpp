@@ -115,12 +115,16 @@ bool between_centres(std::int32_t low, std::int32_t high) {
 class BlockSetup {
   public:
     BlockSetup(const Mesh& mesh, const View& view, const SetupParams& params, TriangleSetup& setup)
-        : mesh_(mesh), view_(view), params_(params), setup_(setup) {}
+        : mesh_(mesh),
+          view_(view),
+          params_(params),
+          setup_(setup),
+          only_casters_(params.only_casters && !mesh.objects.empty()) {}
 
     void run(std::size_t begin, std::size_t end, RecordBlock& block) {
         out_ = setup_.records.data() + block.begin;
         for (std::size_t t = begin; t < end; ++t) {
-            if (params_.only_casters && !mesh_.objects[mesh_.object[t]].casts_shadow) continue;
+            if (only_casters_ && !mesh_.objects[mesh_.object[t]].casts_shadow) continue;
             const Triangle& tri = mesh_.triangles[t];
             const MapVertex &p = setup_.vertices[tri.v[0]], &q = setup_.vertices[tri.v[1]],
                             &r = setup_.vertices[tri.v[2]];
@@ -189,6 +193,7 @@ class BlockSetup {
     const View& view_;
     const SetupParams& params_;
     TriangleSetup& setup_;
+    bool only_casters_;  ///< a mesh without named objects casts as a whole
     TriangleRecord* out_ = nullptr;
 };
 
@@ -248,6 +253,8 @@ void setup_triangles(const Mesh& mesh, const View& view, const SetupParams& para
                      TriangleSetup& setup) {
     CHECK(mesh.component.size() == mesh.triangles.size() && mesh.face.size() == mesh.triangles.size(),
           "setup_triangles needs a mesh with topology");
+    CHECK(mesh.objects.empty() || mesh.object.size() == mesh.triangles.size(),
+          "every triangle needs its object");
     CHECK(view.width <= (1 << 20) && view.height <= (1 << 20));
     setup.blocks.clear();
     if (mesh.triangles.empty()) return;
