@@ -6,55 +6,18 @@
 
 namespace obscura {
 
-IntervalTiler::IntervalTiler()
-    : keys_(static_cast<std::size_t>(layers_in_place * layer_tile_texels)),
-      filled_(layer_tile_texels / 16),
-      spilled_(1024) {}
+IntervalTiler::IntervalTiler() : layers_(false) {}
 
 void IntervalTiler::run(const TriangleSetup& setup, std::span<const std::uint32_t> list, const TileRect& tile,
                         Receivers receivers, Isa isa, DepthInterval* out) {
-    const auto texels = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
     if (list.empty()) {
-        std::fill_n(out, texels, DepthInterval{});
+        std::fill_n(out, tile.width * tile.height, DepthInterval{});
         return;
     }
-    stack_.keys = keys_.data();
-    stack_.filled = filled_.data();
-    do {
-        // Twice at most: the first run says how much room the spilled layers need.
-        if (stack_.spill_count > spilled_.size()) spilled_.reset(stack_.spill_count);
-        stack_.spilled = spilled_.data();
-        stack_.spill_capacity = spilled_.size();
-        OBSCURA_DISPATCH(isa, layer_tile, setup.records.data(), list.data(), list.size(), tile, stack_);
-    } while (stack_.spill_count > stack_.spill_capacity);
-    OBSCURA_DISPATCH(isa, interval_tile, stack_, tile, receivers == Receivers::static_only, out);
-    decide_rest(tile, receivers, out);
-}
-
-/// Texels that eight layers did not decide: the eight in place, then whatever spilled, in order.
-void IntervalTiler::decide_rest(const TileRect& tile, Receivers receivers, DepthInterval* out) {
-    const std::int32_t rows = tile.width * tile.height / 16;
-    if (std::find(filled_.begin(), filled_.begin() + rows, layers_in_place) == filled_.begin() + rows) return;
-    SpilledLayer* const begin = spilled_.data();
-    SpilledLayer* const end = begin + stack_.spill_count;
-    std::sort(begin, end, [](const SpilledLayer& p, const SpilledLayer& q) {
-        return p.texel != q.texel ? p.texel < q.texel : p.key < q.key;
+    const LayerStack& stack = layers_.run([&](LayerStack& s) {
+        OBSCURA_DISPATCH(isa, layer_tile, setup.records.data(), list.data(), list.size(), tile, s);
     });
-    std::vector<LayerCrossing> crossings;
-    for (std::int32_t texel = 0; texel < tile.width * tile.height; ++texel) {
-        if (out[texel].entry != undecided_entry) continue;
-        crossings.clear();
-        for (int l = 0; l < layers_in_place; ++l) {
-            const LayerKey key = keys_[static_cast<std::size_t>(layer_place(texel, l))];
-            crossings.push_back({layer_depth(key), layer_crossing(key), 0});
-        }
-        const SpilledLayer* s = std::lower_bound(
-            begin, end, texel, [](const SpilledLayer& p, std::int32_t t) { return p.texel < t; });
-        for (; s != end && s->texel == texel; ++s) {
-            crossings.push_back({layer_depth(s->key), layer_crossing(s->key), 0});
-        }
-        out[texel] = interval_of(crossings, receivers);
-    }
+    OBSCURA_DISPATCH(isa, interval_tile, stack, tile, receivers == Receivers::static_only, out);
 }
 
 void interval_map(const Mesh& mesh, const LightView& view, const IntervalParams& params, const Exec& exec,

@@ -7,7 +7,7 @@
 #include "core/types.h"
 #include "raster/depth_map.h"
 #include "raster/intervals.h"
-#include "raster/layer_tile.h"
+#include "raster/layer_memory.h"
 
 namespace obscura {
 
@@ -25,11 +25,7 @@ class IntervalTiler {
              Receivers receivers, Isa isa, DepthInterval* out);
 
   private:
-    void decide_rest(const TileRect& tile, Receivers receivers, DepthInterval* out);
-    Buffer<LayerKey> keys_;
-    Buffer<std::int32_t> filled_;
-    Buffer<SpilledLayer> spilled_;
-    LayerStack stack_;
+    LayerMemory layers_;
 };
 
 /// out(x, y) = interval of texel (x, y)'s ray (see raster/intervals.h). `out` must have the view's size.

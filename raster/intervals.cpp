@@ -14,20 +14,6 @@ float just_before(float depth, float floor) {
     return below > floor ? below : floor;
 }
 
-bool interval_decided(std::span<const LayerCrossing> ordered, Receivers receivers) {
-    int inside = 0;
-    for (std::size_t i = 0; i < ordered.size(); ++i) {
-        const Crossing crossing = ordered[i].crossing;
-        if (inside == 0 && crossing == Crossing::open && receivers == Receivers::static_only) {
-            return i + 1 < ordered.size();
-        }
-        if (inside == 0 && crossing != Crossing::entry) return true;
-        if (crossing == Crossing::entry) ++inside;
-        if (crossing == Crossing::exit && --inside == 0) return true;
-    }
-    return false;
-}
-
 DepthInterval interval_of(std::span<const LayerCrossing> ordered, Receivers receivers) {
     int inside = 0;
     float entry = 1.0f;

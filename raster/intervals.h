@@ -37,9 +37,6 @@ bool comes_before(const LayerCrossing& p, const LayerCrossing& q);
 /// Interval of a ray from its crossings in order.
 DepthInterval interval_of(std::span<const LayerCrossing> ordered, Receivers receivers);
 
-/// Whether these crossings, the first of a longer list, already decide the interval.
-bool interval_decided(std::span<const LayerCrossing> ordered, Receivers receivers);
-
 /// The greatest float below `depth`, but not below `floor`.
 float just_before(float depth, float floor);
 

@@ -19,57 +19,69 @@ struct Insertion {
     LayerStack& stack;
     I32 crossing, id;
 
-    void spill(std::int32_t at, const I32& key, const I32& ids) {
-        alignas(64) std::int32_t keys[lanes], triangles[lanes];
-        store(keys, key);
-        store(triangles, ids);
-        for (int k = 0; k < lanes; ++k) {
-            if (keys[k] == no_layer) continue;
-            if (stack.spill_count < stack.spill_capacity) {
-                stack.spilled[stack.spill_count] = {at + k, keys[k],
-                                                    static_cast<std::uint32_t>(triangles[k])};
+    /// Adds a layer to a row; a full row moves to twice the room. Null when there is none left.
+    LayerKey* add_layer(std::int32_t row) {
+        if (stack.filled[row] == stack.room[row]) {
+            const std::int32_t room = 2 * stack.room[row];
+            if (stack.used + room > stack.capacity) return nullptr;
+            const std::int32_t from = stack.place(row, 0), to = stack.used * lanes;
+            for (std::int32_t i = 0; i < stack.filled[row] * lanes; i += lanes) {
+                store(stack.keys + to + i, load(stack.keys + from + i));
+                if constexpr (with_triangles)
+                    store(stack.triangles + to + i, load(stack.triangles + from + i));
             }
-            ++stack.spill_count;
+            stack.first[row] = stack.used;
+            stack.room[row] = room;
+            stack.used += room;
         }
+        return stack.keys + stack.place(row, stack.filled[row]++);
     }
 
-    /// Compares with the layer below and keeps the nearer; the farther goes on.
-    OBSCURA_INLINE void sink(LayerKey* place, std::int32_t* id_place, I32& key, I32& ids) {
-        const I32 old = load(place);
-        if constexpr (with_triangles) {
-            const I32 old_ids = load(id_place);
-            const Mask before = pair_less(key, ids, old, old_ids);
-            store(place, select(before, key, old));
-            store(id_place, select(before, ids, old_ids));
-            key = select(before, old, key);
-            ids = select(before, old_ids, ids);
-        } else {
-            store(place, min(key, old));
-            key = max(key, old);
-        }
-    }
-
-    /// Bubbles sixteen keys (no_layer where there is none) into the sorted layers at `at`.
+    /// Sorts sixteen keys (no_layer where there is none) into the layers at `at`, from below: triangles of
+    /// one surface follow each other, and what comes later tends to lie deeper.
     OBSCURA_INLINE void insert(std::int32_t at, I32 key) {
-        std::int32_t& filled = stack.filled[at / lanes];
+        const std::int32_t row = at / lanes, filled = stack.filled[row];
+        LayerKey* place = stack.keys + stack.place(row, filled - 1);
+        const I32 nothing = splat(no_layer);
         I32 ids = id;
-        LayerKey* place = stack.keys + layer_place(at, 0);
-        std::int32_t* id_place = with_triangles ? stack.triangles + layer_place(at, 0) : nullptr;
-        for (std::int32_t l = 0; l < filled; ++l) {
-            sink(place, id_place, key, ids);
-            place += lanes;
-            if constexpr (with_triangles) id_place += lanes;
-        }
-        if (all(equal(key, splat(no_layer)))) return;
-        if (filled < layers_in_place) {
-            store(place, key);
-            if constexpr (with_triangles) store(id_place, ids);
-            ++filled;
+        I32 last = nothing;
+        if (filled > 0) last = load(place);
+        // A new layer is needed where a key comes to a lane whose last place is taken. Without one, the lanes
+        // that get nothing keep what they have in the last layer.
+        if (filled == 0 || any(less(key, nothing) & less(last, nothing))) {
+            place = add_layer(row);
+            if (place == nullptr) {
+                stack.overflow = true;
+                return;
+            }
         } else {
-            spill(at, key, ids);
+            if constexpr (with_triangles) ids = select(less(key, nothing), ids, load(id_place(place)));
+            key = min(key, last);
         }
+        // Slide: what is deeper than the key moves one layer down.
+        for (LayerKey* const top = stack.keys + stack.place(row, 0); place != top; place -= lanes) {
+            const I32 above = load(place - lanes);
+            if constexpr (with_triangles) {
+                const I32 above_ids = load(id_place(place - lanes));
+                const Mask before = pair_less(key, ids, above, above_ids);
+                if (none(before)) break;
+                store(place, select(before, above, key));
+                store(id_place(place), select(before, above_ids, ids));
+                key = select(before, key, above);
+                ids = select(before, ids, above_ids);
+            } else {
+                if (none(less(key, above))) break;
+                store(place, max(above, key));
+                key = min(above, key);
+            }
+        }
+        store(place, key);
+        if constexpr (with_triangles) store(id_place(place), ids);
     }
 
+    OBSCURA_INLINE std::int32_t* id_place(const LayerKey* place) const {
+        return stack.triangles + (place - stack.keys);
+    }
     OBSCURA_INLINE I32 key_of(const F32& z) const {
         return (shift_left<2>(bitcast_i32(z)) | crossing) ^ splat(INT32_MIN);
     }
@@ -82,9 +94,14 @@ struct Insertion {
 template <bool with_triangles>
 void insert_all(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
                 const TileRect& tile, LayerStack& stack) {
-    for (std::int32_t i = 0; i < tile.width * tile.height / lanes; ++i)
-        stack.filled[i] = 0;
-    stack.spill_count = 0;
+    const std::int32_t rows = tile.width * tile.height / lanes;
+    for (std::int32_t r = 0; r < rows; ++r) {
+        stack.first[r] = r * layers_in_place;
+        stack.room[r] = layers_in_place;
+        stack.filled[r] = 0;
+    }
+    stack.used = rows * layers_in_place;
+    stack.overflow = false;
     Insertion<with_triangles> insertion{stack, splat(std::int32_t{0}), splat(std::int32_t{0})};
     for_each_listed(records, list, count, [&](const TriangleRecord& t) {
         insertion.crossing = splat(static_cast<std::int32_t>(t.crossing));
@@ -97,7 +114,6 @@ void insert_all(const TriangleRecord* records, const std::uint32_t* list, std::s
 struct Counter {
     I32 inside = splat(std::int32_t{0});
     F32 entry = splat(1.0f);
-    DepthInterval* out = nullptr;
     F32 result_entry = splat(1.0f), result_exit = splat(1.0f);
     Mask active = equal(splat(std::int32_t{0}), splat(std::int32_t{0}));  ///< not yet decided
     Mask waiting = ~active;  ///< an open crossing that waits for the next surface
@@ -143,8 +159,7 @@ struct Counter {
     }
 
     /// After the last layer: waiting sheets reach to the end, counters that never closed are surfaces.
-    OBSCURA_INLINE void finish(const Mask& full) {
-        decide(active & full, splat(undecided_entry), splat(0.0f));
+    OBSCURA_INLINE void finish() {
         decide(active & waiting, entry, splat(1.0f));
         decide(active, entry, entry);
     }
@@ -165,17 +180,13 @@ void layer_tile_with_triangles(const TriangleRecord* records, const std::uint32_
 void interval_tile(const LayerStack& stack, const TileRect& tile, bool static_receivers,
                    DepthInterval* out) noexcept {
     for (std::int32_t at = 0; at < tile.width * tile.height; at += lanes) {
-        const std::int32_t filled = stack.filled[at / lanes];
+        const std::int32_t row = at / lanes, filled = stack.filled[row];
         Counter counter;
         counter.static_receivers = static_receivers;
         for (std::int32_t l = 0; l < filled && any(counter.active); ++l) {
-            counter.step(load(stack.keys + layer_place(at, l)));
+            counter.step(load(stack.keys + stack.place(row, l)));
         }
-        Mask full = ~equal(splat(std::int32_t{0}), splat(std::int32_t{0}));
-        if (filled == layers_in_place) {
-            full = ~equal(load(stack.keys + layer_place(at, layers_in_place - 1)), splat(no_layer));
-        }
-        counter.finish(full);
+        counter.finish();
         store_interleaved(&out[at].entry, counter.result_entry, counter.result_exit);
     }
 }

@@ -1,7 +1,8 @@
-// All crossings of a tile, one sample at a time: insertion into a sorted list of eight, the rest spills.
+// All crossings of a tile, one sample at a time: insertion into sorted lists that grow as they need.
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "raster/coverage.h"
 #include "raster/intervals.h"
@@ -10,45 +11,66 @@
 namespace obscura::ref {
 namespace {
 
+/// Empties the lists of a tile; each row of sixteen gets room for eight layers.
+void begin_tile(const TileRect& tile, LayerStack& stack) {
+    const std::int32_t rows = tile.width * tile.height / 16;
+    for (std::int32_t r = 0; r < rows; ++r) {
+        stack.first[r] = r * layers_in_place;
+        stack.room[r] = layers_in_place;
+        stack.filled[r] = 0;
+    }
+    stack.used = rows * layers_in_place;
+    stack.overflow = false;
+}
+
+/// Adds an empty layer to a row; a full row moves to twice the room. False when there is none left.
+bool add_layer(LayerStack& stack, std::int32_t row) {
+    if (stack.filled[row] == stack.room[row]) {
+        const std::int32_t room = 2 * stack.room[row];
+        if (stack.used + room > stack.capacity) return false;
+        const std::int32_t from = stack.place(row, 0), to = stack.used * 16, count = stack.filled[row] * 16;
+        std::copy_n(stack.keys + from, count, stack.keys + to);
+        if (stack.triangles != nullptr) std::copy_n(stack.triangles + from, count, stack.triangles + to);
+        stack.first[row] = stack.used;
+        stack.room[row] = room;
+        stack.used += room;
+    }
+    const std::int32_t at = stack.place(row, stack.filled[row]++);
+    std::fill_n(stack.keys + at, 16, no_layer);
+    if (stack.triangles != nullptr) std::fill_n(stack.triangles + at, 16, 0);
+    return true;
+}
+
 /// Inserts one crossing into the sorted layers of a texel.
 void insert(LayerStack& stack, std::int32_t texel, LayerKey key, std::uint32_t triangle) {
-    // A row of sixteen gets a new layer of empty places when one of its texels needs it.
-    std::int32_t& filled = stack.filled[texel / 16];
-    for (int l = 0; l < filled; ++l) {
-        LayerKey& place = stack.keys[layer_place(texel, l)];
-        if (stack.triangles == nullptr) {
-            if (key < place) std::swap(key, place);
-        } else {
-            std::int32_t& id = stack.triangles[layer_place(texel, l)];
-            if (std::pair(key, triangle) < std::pair(place, static_cast<std::uint32_t>(id))) {
-                std::swap(key, place);
-                triangle = static_cast<std::uint32_t>(std::exchange(id, static_cast<std::int32_t>(triangle)));
-            }
+    const std::int32_t row = texel / 16, lane = texel % 16;
+    const std::int32_t last = stack.filled[row] - 1;
+    if (last < 0 || stack.keys[stack.place(row, last) + lane] != no_layer) {
+        if (!add_layer(stack, row)) {
+            stack.overflow = true;
+            return;
         }
-        if (key == no_layer) return;
     }
-    if (filled == layers_in_place) {
-        if (stack.spill_count < stack.spill_capacity)
-            stack.spilled[stack.spill_count] = {texel, key, triangle};
-        ++stack.spill_count;
-        return;
+    for (std::int32_t l = 0; l < stack.filled[row]; ++l) {
+        const std::int32_t at = stack.place(row, l) + lane;
+        if (stack.triangles == nullptr) {
+            if (key < stack.keys[at]) std::swap(key, stack.keys[at]);
+            continue;
+        }
+        const auto other = static_cast<std::uint32_t>(stack.triangles[at]);
+        if (std::pair(key, triangle) < std::pair(stack.keys[at], other)) {
+            std::swap(key, stack.keys[at]);
+            stack.triangles[at] = static_cast<std::int32_t>(triangle);
+            triangle = other;
+        }
     }
-    const std::int32_t row = texel / 16 * 16;
-    std::fill_n(stack.keys + layer_place(row, filled), 16, no_layer);
-    stack.keys[layer_place(texel, filled)] = key;
-    if (stack.triangles != nullptr) {
-        std::fill_n(stack.triangles + layer_place(row, filled), 16, 0);
-        stack.triangles[layer_place(texel, filled)] = static_cast<std::int32_t>(triangle);
-    }
-    ++filled;
 }
 
 }  // namespace
 
 void layer_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,
                 const TileRect& tile, LayerStack& stack) noexcept {
-    std::fill_n(stack.filled, tile.width * tile.height / 16, 0);
-    stack.spill_count = 0;
+    begin_tile(tile, stack);
     for (std::size_t i = 0; i < count; ++i) {
         const TriangleRecord& t = records[list[i]];
         for (std::int32_t y = 0; y < tile.height; ++y) {
@@ -70,19 +92,15 @@ void layer_tile_with_triangles(const TriangleRecord* records, const std::uint32_
 void interval_tile(const LayerStack& stack, const TileRect& tile, bool static_receivers,
                    DepthInterval* out) noexcept {
     const Receivers receivers = static_receivers ? Receivers::static_only : Receivers::any;
+    std::vector<LayerCrossing> crossings;
     for (std::int32_t i = 0; i < tile.width * tile.height; ++i) {
-        LayerCrossing crossings[layers_in_place];
-        std::size_t n = 0;
-        while (static_cast<std::int32_t>(n) < stack.filled[i / 16]) {
-            const LayerKey key = stack.keys[layer_place(i, static_cast<std::int32_t>(n))];
+        crossings.clear();
+        for (std::int32_t l = 0; l < stack.filled[i / 16]; ++l) {
+            const LayerKey key = stack.keys[stack.place(i / 16, l) + i % 16];
             if (key == no_layer) break;
-            crossings[n++] = {layer_depth(key), layer_crossing(key), 0};
+            crossings.push_back({layer_depth(key), layer_crossing(key), 0});
         }
-        // Eight layers may hide a ninth.
-        const bool more = n == layers_in_place;
-        out[i] = more && !interval_decided({crossings, n}, receivers)
-                     ? DepthInterval{undecided_entry, 0.0f}
-                     : interval_of({crossings, n}, receivers);
+        out[i] = crossings.empty() ? DepthInterval{} : interval_of(crossings, receivers);
     }
 }
 

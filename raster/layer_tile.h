@@ -1,6 +1,6 @@
 #pragma once
 // All crossings of a tile's rays in order, and their intervals (ref, sse2, avx2, avx512bw): a k-buffer of
-// eight sorted layers per texel in place, with a list for what spills beyond.
+// eight sorted layers per texel in place, which moves to twice the room when they are full.
 //
 // L. Bavoil et al., "Multi-Fragment Effects on the GPU using the k-Buffer", I3D 2007, for the buffer; ours
 // never drops a fragment and needs no order of submission.
@@ -16,6 +16,7 @@ namespace obscura {
 constexpr int layers_in_place = 8;
 constexpr int layer_tile_side = 64;
 constexpr int layer_tile_texels = layer_tile_side * layer_tile_side;
+constexpr int layer_tile_rows = layer_tile_texels / 16;  ///< rows of sixteen texels
 
 /// Depth and kind of a crossing in one integer of the same order: bits of the depth (in [0, 1], below 2^30)
 /// times four plus kind, moved to the signed range.
@@ -36,36 +37,24 @@ inline Crossing layer_crossing(LayerKey key) {
     return static_cast<Crossing>(static_cast<std::uint32_t>(key) & 3u);
 }
 
-/// A crossing that found no place in its texel's eight layers.
-struct SpilledLayer {
-    std::int32_t texel;  ///< row * width + column in the tile
-    LayerKey key;
-    std::uint32_t triangle;
-};
-
-/// Where layer l of texel i lies in LayerStack::keys: the layers of sixteen texels stand together, so that a
-/// walk down the layers stays within a few neighbouring cache lines.
-constexpr std::int32_t layer_place(std::int32_t texel, std::int32_t layer) {
-    return (texel / 16 * layers_in_place + layer) * 16 + texel % 16;
-}
-
-/// Working memory of one tile. Rows of sixteen texels have filled[i / 16] layers, with no_layer where a texel
-/// has fewer.
+/// Working memory of one tile: the sorted layers of each row of sixteen texels, one under the other, so that
+/// a walk through them stays within neighbouring cache lines. Layer l of lane i of row r is at place(r, l) +
+/// i; lanes with fewer layers than their row end in no_layer.
 struct LayerStack {
-    LayerKey* keys = nullptr;
+    LayerKey* keys = nullptr;           ///< `capacity` layers of sixteen
     std::int32_t* triangles = nullptr;  ///< same places as keys; only where asked for
-    std::int32_t* filled = nullptr;
-    SpilledLayer* spilled = nullptr;
-    std::size_t spill_capacity = 0;
-    std::size_t spill_count = 0;  ///< may pass the capacity: then the tile must be run again with more room
-};
+    std::int32_t* first = nullptr;      ///< per row: where its layers begin, in layers
+    std::int32_t* room = nullptr;       ///< per row: layers it may hold there
+    std::int32_t* filled = nullptr;     ///< per row: layers it holds
+    std::int32_t capacity = 0;
+    std::int32_t used = 0;
+    bool overflow = false;  ///< crossings were dropped: run the tile again with more capacity
 
-/// Marks a texel whose eight layers did not decide its interval; its spilled layers must.
-constexpr float undecided_entry = -1.0f;
+    std::int32_t place(std::int32_t row, std::int32_t layer) const { return (first[row] + layer) * 16; }
+};
 
 /// layer_tile: keys only, or keys and triangles. Tiles are layer_tile_side square at most, width a multiple
-/// of 16. interval_tile: out[i] from the keys in place; {undecided_entry, 0} where more than eight layers are
-/// needed.
+/// of 16. interval_tile: out[row * width + column] from the keys.
 #define OBSCURA_LAYER_TILE                                                                               \
     void layer_tile(const TriangleRecord* records, const std::uint32_t* list, std::size_t count,         \
                     const TileRect& tile, LayerStack& stack) noexcept;                                   \

@@ -4,7 +4,7 @@
 
 #include "core/parallel.h"
 #include "raster/depth_map.h"
-#include "raster/layer_tile.h"
+#include "raster/layer_memory.h"
 
 namespace obscura {
 namespace {
@@ -16,26 +16,15 @@ struct TileLayers {
 };
 
 TileLayers collect(const LayerStack& stack, const TileRect& tile) {
-    std::vector<SpilledLayer> spilled(stack.spilled, stack.spilled + stack.spill_count);
-    std::stable_sort(spilled.begin(), spilled.end(),
-                     [](const SpilledLayer& p, const SpilledLayer& q) { return p.texel < q.texel; });
     TileLayers tile_layers;
-    auto next_spilled = spilled.begin();
     for (std::int32_t i = 0; i < tile.width * tile.height; ++i) {
         tile_layers.first.push_back(tile_layers.crossings.size());
-        for (int l = 0; l < stack.filled[i / 16]; ++l) {
-            const LayerKey key = stack.keys[layer_place(i, l)];
-            if (key == no_layer) break;
-            tile_layers.crossings.push_back({layer_depth(key), layer_crossing(key),
-                                             static_cast<std::uint32_t>(stack.triangles[layer_place(i, l)])});
+        for (std::int32_t l = 0; l < stack.filled[i / 16]; ++l) {
+            const std::int32_t at = stack.place(i / 16, l) + i % 16;
+            if (stack.keys[at] == no_layer) break;
+            tile_layers.crossings.push_back({layer_depth(stack.keys[at]), layer_crossing(stack.keys[at]),
+                                             static_cast<std::uint32_t>(stack.triangles[at])});
         }
-        const auto in_place = static_cast<std::ptrdiff_t>(tile_layers.crossings.size());
-        for (; next_spilled != spilled.end() && next_spilled->texel == i; ++next_spilled) {
-            tile_layers.crossings.push_back(
-                {layer_depth(next_spilled->key), layer_crossing(next_spilled->key), next_spilled->triangle});
-        }
-        // What spilled lies behind what stayed, but in no order of its own.
-        std::sort(tile_layers.crossings.begin() + in_place, tile_layers.crossings.end(), comes_before);
     }
     tile_layers.first.push_back(tile_layers.crossings.size());
     return tile_layers;
@@ -43,17 +32,11 @@ TileLayers collect(const LayerStack& stack, const TileRect& tile) {
 
 TileLayers layers_of_tile(const RasterScratch& scratch, std::span<const std::uint32_t> list,
                           const TileRect& tile, Isa isa) {
-    std::vector<LayerKey> keys(static_cast<std::size_t>(layers_in_place * layer_tile_texels));
-    std::vector<std::int32_t> triangles(keys.size()), filled(layer_tile_texels / 16);
-    std::vector<SpilledLayer> spilled;
-    LayerStack stack{keys.data(), triangles.data(), filled.data(), nullptr, 0, 0};
-    do {
-        spilled.resize(stack.spill_count);
-        stack.spilled = spilled.data();
-        stack.spill_capacity = spilled.size();
+    LayerMemory memory(true);
+    const LayerStack& stack = memory.run([&](LayerStack& s) {
         OBSCURA_DISPATCH(isa, layer_tile_with_triangles, scratch.setup.records.data(), list.data(),
-                         list.size(), tile, stack);
-    } while (stack.spill_count > stack.spill_capacity);
+                         list.size(), tile, s);
+    });
     return collect(stack, tile);
 }
 

@@ -153,7 +153,7 @@ TEST(Layers, ThreeHundredLayersAreAllThere) {
     }
 }
 
-TEST(Intervals, NestedSolidsNeedTheSpilledLayers) {
+TEST(Intervals, NestedSolidsNeedMoreThanTheLayersInPlace) {
     // Sixty boxes inside one another: the interval is that of the outermost, found behind 118 other
     // crossings.
     Mesh mesh;
