@@ -14,6 +14,7 @@ namespace obscura {
 namespace {
 
 constexpr std::size_t left_width = 30, page_width = 100;
+constexpr int most_threads = 1024;
 
 std::string command_of(const std::string& usage) {
     return usage.substr(0, usage.find(' '));
@@ -40,6 +41,13 @@ std::string wrapped(const std::string& text, std::size_t indent, std::size_t wid
         at = end + 1;
     }
     return out;
+}
+
+void add_exec_flags(Flags& flags, std::int64_t& threads, std::string& isa) {
+    flags.group("Execution");
+    flags.whole("-t,--threads", "N", threads, 0, most_threads, "Threads; 0 = all of the machine.", "0");
+    flags.text("--isa", "ISA", isa,
+               "Instruction set: auto, ref, sse2, avx2, avx512bw. The pixels do not depend on it.", "auto");
 }
 
 Flags::Flags(std::string usage_, std::string summary_)

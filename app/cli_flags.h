@@ -58,6 +58,9 @@ class Flags {
     bool help_wanted = false;
 };
 
+/// The flags that choose how to execute: -t, --threads and --isa, under a heading of their own.
+void add_exec_flags(Flags& flags, std::int64_t& threads, std::string& isa);
+
 /// Runs of words broken at `width` columns; lines after the first begin with `indent` spaces.
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width);
 

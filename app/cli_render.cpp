@@ -12,8 +12,6 @@
 namespace obscura {
 namespace {
 
-constexpr int most_threads = 1024;
-
 FileKind kind_value(const std::string& flag, const std::string& text) {
     if (text == "png") return FileKind::png;
     if (text == "pfm") return FileKind::pfm;
@@ -50,10 +48,7 @@ int run_render(const Arguments& arguments) {
                "pfm");
     flags.text("--pixel", "X,Y", options.pixel,
                "Print every number that made this pixel of the first frame, and write nothing.", "off");
-    flags.group("Execution");
-    flags.whole("-t,--threads", "N", threads, 0, most_threads, "Threads; 0 = all of the machine.", "0");
-    flags.text("--isa", "ISA", isa,
-               "Instruction set: auto, ref, sse2, avx2, avx512bw. The pixels do not depend on it.", "auto");
+    add_exec_flags(flags, threads, isa);
     flags.group("Messages");
     flags.on_off("-q,--quiet", options.quiet, "Say nothing but errors.");
     flags.counted("-v,--verbose", options.verbosity, "Say what each stage took.");

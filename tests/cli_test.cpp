@@ -41,7 +41,7 @@ TEST(Cli, VersionNamesCompilerInstructionSetsAndLibraries) {
 
 TEST(Cli, EveryCommandHasHelpWithUsage) {
     const auto commands = listed_commands();
-    for (const char* expected : {"check", "dump", "info", "diff", "version"})
+    for (const char* expected : {"render", "check", "dump", "info", "diff", "bench", "lesson", "version"})
         EXPECT_NE(std::find(commands.begin(), commands.end(), expected), commands.end()) << expected;
     for (const std::string& command : commands) {
         const Outcome run = Program({command, "--help"}).run();
@@ -137,6 +137,13 @@ TEST(Cli, MistakesHaveTheirCodesAndMessages) {
         {{"dump"}, 2, "SCENE is missing (see 'obscura dump --help')"},
         {{"info"}, 2, "FILE is missing (see 'obscura info --help')"},
         {{"diff", "a.png"}, 2, "B is missing (see 'obscura diff --help')"},
+        {{"bench", "rater"},
+         2,
+         "there is no bench 'rater'; did you mean 'raster'? (see 'obscura bench --help')"},
+        {{"lesson"}, 2, "NUMBER is missing (see 'obscura lesson --help')"},
+        {{"lesson", "0"}, 2, "NUMBER: '0' is not a whole number from 1 to ..."},
+        {{"lesson", "1", "-o", "x.pfm"}, 2, "'x.pfm': lessons end in .png"},
+        {{"lesson", "1", "-o", "none/x.png"}, 5, "none/x.png: cannot be created in 'none': ..."},
         {{"version", "--loud"}, 2, "unknown flag '--loud' (see 'obscura version --help')"},
         {{"check", "none.toml"}, 3, "none.toml: cannot open: No such file or directory"},
         {{"check", "."}, 3, ".: not a regular file, but a folder"},
@@ -208,6 +215,16 @@ TEST(Cli, ClosedPipesEndQuietly) {
     const Outcome run = program.run();
     EXPECT_EQ(run.code, 128 + SIGPIPE);
     EXPECT_EQ(run.err, "");
+}
+
+TEST(Cli, LessonsAreDrawnAndListed) {
+    const Folder folder;
+    EXPECT_NE(run_in(folder, {"lesson", "--help"}).out.find("\n  2  "), std::string::npos);
+    const Outcome run = run_in(folder, {"lesson", "2", "-o", "l.png"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.out, "l.png\n");
+    EXPECT_EQ(file_text(folder / "l.png").substr(1, 3), "PNG");
+    EXPECT_EQ(run_in(folder, {"lesson", "2", "-o", "l.png"}).code, 5);
 }
 
 TEST(Cli, ClosedStandardOutputIsNoError) {
