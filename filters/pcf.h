@@ -3,7 +3,7 @@
 //
 // W. Reeves, D. Salesin, R. Cook, "Rendering Antialiased Shadows with Depth Maps", SIGGRAPH 1987: compare
 // first, then filter. A kernel of side K takes the K x K texels around the texel that holds the receiver, no
-// others. Along each axis, with f in [0, 1] the receiver's place in its own texel, they weigh
+// others. Along each axis, with f in [0, 1) the receiver's place in its own texel, to 1/256, they weigh
 //   K = 1:  1        K = 3:  (1 - f, 1, f) / 2        K = 5:  (1 - f, 1, 1, 1, f) / 4,
 // which is the box of K - 1 texels that is centred on the receiver itself: visibility changes continuously as
 // the receiver moves, and shadow edges are ramps, not stairs.

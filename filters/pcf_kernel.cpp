@@ -96,8 +96,10 @@ OBSCURA_INLINE F32 filtered(const PcfView& view, const Receivers16& r, const I32
 
 template <int side>
 OBSCURA_INLINE F32 filtered_side(const PcfView& view, const Receivers16& r, const Mask& todo) {
-    I32 ix = round_to_i32(r.X - splat(0.5)), iy = round_to_i32(r.Y - splat(0.5));
-    const F32 fx = to_f32(r.X - to_f64(ix)), fy = to_f32(r.Y - to_f64(iy));
+    const I32 x256 = round_to_i32(r.X * splat(256.0)), y256 = round_to_i32(r.Y * splat(256.0));
+    I32 ix = shift_right<8>(x256), iy = shift_right<8>(y256);
+    const F32 fx = to_f32(x256 & splat(std::int32_t{255})) * splat(1.0f / 256.0f);
+    const F32 fy = to_f32(y256 & splat(std::int32_t{255})) * splat(1.0f / 256.0f);
     const std::int32_t low = side / 2, high = view.size - 1 - side / 2;
     const Mask interior = between(ix, low, high) & between(iy, low, high);
     if (high >= low && all(interior | ~todo)) {

@@ -61,10 +61,12 @@ std::int64_t block_index(std::int64_t x, std::int64_t y, std::int64_t size) {
 /// Calls tap(x, y, weight_x, weight_y) for each texel of the kernel and returns the filtered visibility.
 template <class Tap>
 float filtered(const Receiver& r, int side, Tap&& tap) {
-    // The receiver's own texel: the nearest centre, which is at +0.5.
-    const double cx = std::nearbyint(r.X - 0.5), cy = std::nearbyint(r.Y - 0.5);
-    const auto ix = static_cast<std::int32_t>(cx), iy = static_cast<std::int32_t>(cy);
-    const auto fx = static_cast<float>(r.X - cx), fy = static_cast<float>(r.Y - cy);
+    // Place on a grid of 1/256 texel: the sums below are then exact, and full light is exactly 1.
+    const auto x256 = static_cast<std::int32_t>(std::nearbyint(r.X * 256.0));
+    const auto y256 = static_cast<std::int32_t>(std::nearbyint(r.Y * 256.0));
+    const std::int32_t ix = x256 >> 8, iy = y256 >> 8;
+    const float fx = static_cast<float>(x256 & 255) * (1.0f / 256.0f);
+    const float fy = static_cast<float>(y256 & 255) * (1.0f / 256.0f);
     const int reach = side / 2;
     float sum = 0.0f;
     for (int j = 0; j < side; ++j) {

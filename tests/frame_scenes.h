@@ -112,6 +112,13 @@ inline Scene everything(int samples, bool orthographic = false) {
     return scene;
 }
 
+/// Every channel wanted.
+inline FrameOptions all_channels() {
+    FrameOptions options;
+    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
+    return options;
+}
+
 inline std::uint64_t hash(const Frame& frame) {
     return Hasher{}.bytes(frame.radiance.pixels.data(), frame.radiance.pixels.size() * sizeof(Vec3f)).state;
 }
