@@ -15,6 +15,9 @@ This page is written by `obscura dump --format` from the declarations that read 
 
 A scene is a TOML 1.0 file. The world is right-handed, +Y up, in metres; north is -Z and east is +X. Units stand in
 the names of keys (`_deg`, `_m`, `_mm`, `_px`). Colours are linear Rec. 709 triples, or one number for grey.
+Light is counted in watts per channel on a scale of the scene's own: a white wall that faces a sun of irradiance 3
+has a radiance of about 1, and an exposure of 0 EV and the default sky are made for that. A scene in true watts (a sun
+of 330 W/m2 per channel) needs `exposure_ev = -6.8` and a sky 110 times as bright.
 Paths are relative to the scene file and may not leave its folder unless `--allow-path DIR` says so.
 Unknown keys, wrong types and values out of range are errors with file, line and column.
 

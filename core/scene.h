@@ -68,11 +68,12 @@ struct Light {
     ShadowSettings shadow;
 };
 
-/// Ambient light: a gradient sky seen by every surface without occlusion, and the background.
+/// Ambient light: a gradient sky seen by every surface without occlusion, and the background. The default is
+/// a clear day under a sun of irradiance 3: the sky sheds about a quarter of that on level ground.
 struct Sky {
-    Vec3f zenith{0.25f, 0.42f, 0.75f};  ///< radiance
-    Vec3f horizon{0.65f, 0.72f, 0.80f};
-    Vec3f ground{0.25f, 0.22f, 0.18f};
+    Vec3f zenith{0.10f, 0.19f, 0.38f};  ///< radiance
+    Vec3f horizon{0.36f, 0.42f, 0.48f};
+    Vec3f ground{0.16f, 0.145f, 0.12f};
     float ambient = 1.0f;  ///< scale of the light it sheds
     bool visible = true;   ///< false: background is black
 };

@@ -7,9 +7,13 @@
 //      2007, eq. 33), alpha = roughness^2 (Burley, "Physically-Based Shading at Disney", 2012);
 //   G: Smith, height-correlated (Heitz, "Understanding the Masking-Shadowing Function", JCGT 2014, eq. 99);
 //   F: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994;
-// over Lambert. Different from glTF: what Fresnel takes from the diffuse light is (1 - F(n.l)) (1 - F(n.v)),
-// F at 4 % (after Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 2000), not 1 - F(h.v): it is
-// reciprocal too and never gives back more light than came in (tests/shade_test.cpp integrates it).
+// over Lambert. Different from glTF: what Fresnel takes from the diffuse light is (1 - F'(n.l)) (1 - F'(n.v))
+// (after Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 2000), not 1 - F(h.v): it is
+// reciprocal too and never gives back more light than came in (tests/shade_test.cpp integrates it). F' rises
+// from 4 % to no more than the gloss, 1 - roughness, as the sky's specular term does (after Lagarde,
+// "Adopting a physically based shading model", 2011): the facets of a rough surface are not grazed when the
+// surface is, and with the full F a white wall seen along itself would give back a sixth of its light and
+// look black.
 
 #include <cstdint>
 
@@ -54,6 +58,7 @@ struct ShadeSky {
 struct alignas(64) ShadeBlock {
     float vx[block_samples], vy[block_samples], vz[block_samples];  ///< unit, to the viewer
     float nv[block_samples];                                        ///< n . v, at least 1e-4
+    float veil[block_samples];                                      ///< max(gloss - 4 %, 0)
     float smith_v[block_samples];                                   ///< sqrt(nv^2 (1 - alpha2) + alpha2)
     float alpha2[block_samples];
     float diffuse_r[block_samples], diffuse_g[block_samples],

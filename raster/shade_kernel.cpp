@@ -16,8 +16,8 @@ OBSCURA_INLINE F32 fifth_power(const F32& x) {
 OBSCURA_INLINE F32 schlick(const F32& f0, const F32& rest) {
     return f0 + (one() - f0) * rest;
 }
-OBSCURA_INLINE F32 let_in(const F32& cosine) {
-    return one() - schlick(splat(dielectric_f0), fifth_power(one() - cosine));
+OBSCURA_INLINE F32 let_in(const F32& veil, const F32& cosine) {
+    return splat(1.0f - dielectric_f0) - veil * fifth_power(one() - cosine);
 }
 
 OBSCURA_INLINE Vec3x16 to_viewer(const SurfaceBlock& s, const CameraRays& rays, int at) {
@@ -110,11 +110,13 @@ OBSCURA_INLINE Vec3x16 surface_radiance(const SurfaceBlock& s, const ShadeMateri
     }
     const Vec3x16 n = load3(s.nx + at, s.ny + at, s.nz + at);
     const F32 nv = max(dot(n, v), splat(1e-4f));
+    const F32 veil = max(m.gloss - splat(dielectric_f0), splat(0.0f));
     store(out.nv + at, nv);
+    store(out.veil + at, veil);
     store(out.alpha2 + at, m.alpha2);
     store(out.smith_v + at, sqrt((nv * nv) * (one() - m.alpha2) + m.alpha2));
 
-    const Vec3x16 body = base * ((one() - m.metallic) * (let_in(nv) * splat(inv_pi)));
+    const Vec3x16 body = base * ((one() - m.metallic) * (let_in(veil, nv) * splat(inv_pi)));
     const Vec3x16 diffuse = body * (one() - m.translucency);
     const Vec3x16 f0 =
         mix(Vec3x16{splat(dielectric_f0), splat(dielectric_f0), splat(dielectric_f0)}, base, m.metallic);
@@ -168,7 +170,8 @@ OBSCURA_INLINE Vec3x16 response(const SurfaceBlock& s, const ShadeBlock& shade, 
     const F32 lobe = (splat(0.5f * inv_pi) * (alpha2 * (square * square))) / ((spread * spread) * smith);
     const F32 rest = fifth_power(max(one() - splat(0.5f) * sqrt(square), splat(0.0f)));
 
-    const F32 in = let_in(nl) * nl;
+    const F32 veil = load(shade.veil + at);
+    const F32 in = let_in(veil, nl) * nl;
     const Vec3x16 diffuse = load3(shade.diffuse_r + at, shade.diffuse_g + at, shade.diffuse_b + at) * in;
     const Vec3x16 f0 = load3(shade.f0_r + at, shade.f0_g + at, shade.f0_b + at);
     const Vec3x16 fresnel = {schlick(f0.x, rest), schlick(f0.y, rest), schlick(f0.z, rest)};
@@ -177,7 +180,7 @@ OBSCURA_INLINE Vec3x16 response(const SurfaceBlock& s, const ShadeBlock& shade, 
     if (thin == 0) return reflected;
     const F32 back = max(signed_nl ^ splat(-0.0f), splat(0.0f));
     const Vec3x16 through =
-        load3(shade.through_r + at, shade.through_g + at, shade.through_b + at) * (let_in(back) * back);
+        load3(shade.through_r + at, shade.through_g + at, shade.through_b + at) * (let_in(veil, back) * back);
     return select(mask_of(thin), reflected + through, reflected);
 }
 

@@ -23,9 +23,10 @@ float schlick(float f0, float rest) {
     return f0 + (1.0f - f0) * rest;
 }
 
-/// Share of diffuse light that the surface of a dielectric lets in (or out) at this cosine.
-float let_in(float cosine) {
-    return 1.0f - schlick(dielectric_f0, fifth_power(1.0f - cosine));
+/// Share of diffuse light that the surface of a dielectric lets in (or out) at this cosine; `veil` = what a
+/// grazing view loses more than a frontal one.
+float let_in(float veil, float cosine) {
+    return (1.0f - dielectric_f0) - veil * fifth_power(1.0f - cosine);
 }
 
 Vec3f to_viewer(const SurfaceBlock& s, const CameraRays& rays, int at) {
@@ -81,12 +82,14 @@ void begin_sample(const SurfaceBlock& s, const ShadeMaterial* materials, const S
         }
         const Vec3f n = {s.nx[at], s.ny[at], s.nz[at]};
         const float nv = lane_max(dot(n, v), 1e-4f);
+        const float veil = lane_max(m.gloss - dielectric_f0, 0.0f);
         out.nv[at] = nv;
+        out.veil[at] = veil;
         out.alpha2[at] = m.alpha2;
         out.smith_v[at] = std::sqrt((nv * nv) * (1.0f - m.alpha2) + m.alpha2);
 
         // Metals have no diffuse part; thin sheets hand part of theirs to the other side.
-        const Vec3f body = base * ((1.0f - m.metallic) * (let_in(nv) * inv_pi));
+        const Vec3f body = base * ((1.0f - m.metallic) * (let_in(veil, nv) * inv_pi));
         const Vec3f diffuse = body * (1.0f - m.translucency);
         const Vec3f through = body * m.translucency;
         const Vec3f f0 = mix({dielectric_f0, dielectric_f0, dielectric_f0}, base, m.metallic);
@@ -164,15 +167,15 @@ LightTerms light_terms(const SurfaceBlock& s, const ShadeLight& light, const Sha
     const float lobe = ((0.5f * inv_pi) * (alpha2 * (square * square))) / ((spread * spread) * smith);
     const float rest = fifth_power(lane_max(1.0f - 0.5f * std::sqrt(square), 0.0f));
 
-    const float in = let_in(nl) * nl;
+    const float in = let_in(shade.veil[at], nl) * nl;
     terms.diffuse = Vec3f{shade.diffuse_r[at], shade.diffuse_g[at], shade.diffuse_b[at]} * in;
     const Vec3f fresnel = {schlick(shade.f0_r[at], rest), schlick(shade.f0_g[at], rest),
                            schlick(shade.f0_b[at], rest)};
     terms.specular = fresnel * (lobe * nl);
     if ((s.thin[at / 16] >> (at & 15) & 1u) != 0) {
         const float back = lane_max(-terms.nl, 0.0f);
-        terms.through =
-            Vec3f{shade.through_r[at], shade.through_g[at], shade.through_b[at]} * (let_in(back) * back);
+        terms.through = Vec3f{shade.through_r[at], shade.through_g[at], shade.through_b[at]} *
+                        (let_in(shade.veil[at], back) * back);
     }
     return terms;
 }

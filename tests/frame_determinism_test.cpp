@@ -31,8 +31,8 @@ void forget_undefined(const SurfaceBlock& s, ShadeBlock& shade) {
     for (int at = 0; at < block_samples; ++at) {
         const auto in = [&](const std::uint32_t* masks) { return (masks[at / 16] >> (at & 15) & 1u) != 0; };
         if (!in(s.covered)) {
-            for (float* plane : {shade.nv, shade.smith_v, shade.alpha2, shade.diffuse_r, shade.diffuse_g,
-                                 shade.diffuse_b, shade.f0_r, shade.f0_g, shade.f0_b})
+            for (float* plane : {shade.nv, shade.veil, shade.smith_v, shade.alpha2, shade.diffuse_r,
+                                 shade.diffuse_g, shade.diffuse_b, shade.f0_r, shade.f0_g, shade.f0_b})
                 plane[at] = 0;
         }
         if (!in(s.covered) || !in(s.thin))

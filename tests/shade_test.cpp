@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -35,7 +36,10 @@ double textbook_brdf(const Surface& m, Vec3d n, Vec3d l, Vec3d v) {
     const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1 + a2 * (1 - c * c) / (c * c)) - 1); };
     const double G = 1 / (1 + lambda(nl) + lambda(nv));
     const double F = schlick(0.04 + (m.base - 0.04) * m.metallic, vh);
-    const double diffuse = m.base * (1 - m.metallic) / pi * (1 - schlick(0.04, nl)) * (1 - schlick(0.04, nv));
+    const auto let_in = [&](double c) {
+        return 1 - (0.04 + (std::max(1 - m.roughness, 0.04) - 0.04) * std::pow(1 - c, 5));
+    };
+    const double diffuse = m.base * (1 - m.metallic) / pi * let_in(nl) * let_in(nv);
     return diffuse + D * G * F / (4 * nl * nv);
 }
 
@@ -136,6 +140,8 @@ TEST(Shade, GivesBackNoMoreLightThanArrives) {
             }
         }
     }
+    // A rough white wall stays white when seen along itself: no dark rims.
+    EXPECT_GT(albedo({1, 1, 0}, direction(0.05, 0)), 0.9);
     // And a polished white metal gives back nearly all of it: the lobe is normalised.
     EXPECT_GT(albedo({1, 0.2, 1}, direction(0.8, 0)), 0.985);
 }
