@@ -14,6 +14,8 @@ OBSCURA_INLINE Mask pair_less(const I32& key, const I32& id, const I32& other_ke
     return less(key, other_key) | (equal(key, other_key) & less(id ^ flip, other_id ^ flip));
 }
 
+constexpr std::int32_t few_layers = 6;
+
 template <bool with_triangles>
 struct Insertion {
     LayerStack& stack;
@@ -37,29 +39,25 @@ struct Insertion {
         return stack.keys + stack.place(row, stack.filled[row]++);
     }
 
-    /// Sorts sixteen keys (no_layer where there is none) into the layers at `at`, from below: triangles of
-    /// one surface follow each other, and what comes later tends to lie deeper.
-    OBSCURA_INLINE void insert(std::int32_t at, I32 key) {
-        const std::int32_t row = at / lanes, filled = stack.filled[row];
-        LayerKey* place = stack.keys + stack.place(row, filled - 1);
-        const I32 nothing = splat(no_layer);
-        I32 ids = id;
-        I32 last = nothing;
-        if (filled > 0) last = load(place);
-        // A new layer is needed where a key comes to a lane whose last place is taken. Without one, the lanes
-        // that get nothing keep what they have in the last layer.
-        if (filled == 0 || any(less(key, nothing) & less(last, nothing))) {
-            place = add_layer(row);
-            if (place == nullptr) {
-                stack.overflow = true;
-                return;
-            }
+    /// Keeps the nearer of key and layer in the layer; the farther goes on.
+    OBSCURA_INLINE void sink(LayerKey* place, I32& key, I32& ids) {
+        const I32 old = load(place);
+        if constexpr (with_triangles) {
+            const I32 old_ids = load(id_place(place));
+            const Mask before = pair_less(key, ids, old, old_ids);
+            store(place, select(before, key, old));
+            store(id_place(place), select(before, ids, old_ids));
+            key = select(before, old, key);
+            ids = select(before, old_ids, ids);
         } else {
-            if constexpr (with_triangles) ids = select(less(key, nothing), ids, load(id_place(place)));
-            key = min(key, last);
+            store(place, min(key, old));
+            key = max(key, old);
         }
-        // Slide: what is deeper than the key moves one layer down.
-        for (LayerKey* const top = stack.keys + stack.place(row, 0); place != top; place -= lanes) {
+    }
+
+    /// The other way round, from below: what is deeper than the key moves one layer down, until nothing is.
+    OBSCURA_INLINE LayerKey* slide(LayerKey* place, const LayerKey* top, I32& key, I32& ids) {
+        for (; place != top; place -= lanes) {
             const I32 above = load(place - lanes);
             if constexpr (with_triangles) {
                 const I32 above_ids = load(id_place(place - lanes));
@@ -74,6 +72,40 @@ struct Insertion {
                 store(place, max(above, key));
                 key = min(above, key);
             }
+        }
+        return place;
+    }
+
+    /// Sorts sixteen keys (no_layer where there is none) into the layers at `at`.
+    OBSCURA_INLINE void insert(std::int32_t at, I32 key) {
+        const std::int32_t row = at / lanes, filled = stack.filled[row];
+        const I32 nothing = splat(no_layer);
+        I32 ids = id;
+        LayerKey* place = stack.keys + stack.place(row, 0);
+        // Few layers: all of them, without asking, costs less than a branch that is often guessed wrong.
+        if (filled <= few_layers) {
+            for (std::int32_t l = 0; l < filled; ++l, place += lanes)
+                sink(place, key, ids);
+            if (none(less(key, nothing))) return;
+            place = add_layer(row);
+        } else {
+            // Many: from below, since triangles of one surface follow each other and what comes later tends
+            // to lie deeper. A new layer is needed where a key comes to a lane whose last place is taken;
+            // without one, the lanes that get nothing keep what they have in the last layer.
+            LayerKey* const last_place = place + (filled - 1) * lanes;
+            const I32 last = load(last_place);
+            if (any(less(key, nothing) & less(last, nothing))) {
+                place = add_layer(row);
+            } else {
+                place = last_place;
+                if constexpr (with_triangles) ids = select(less(key, nothing), ids, load(id_place(place)));
+                key = min(key, last);
+            }
+            if (place != nullptr) place = slide(place, stack.keys + stack.place(row, 0), key, ids);
+        }
+        if (place == nullptr) {
+            stack.overflow = true;
+            return;
         }
         store(place, key);
         if constexpr (with_triangles) store(id_place(place), ids);
