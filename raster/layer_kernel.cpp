@@ -213,6 +213,10 @@ void interval_tile(const LayerStack& stack, const TileRect& tile, bool static_re
                    DepthInterval* out) noexcept {
     for (std::int32_t at = 0; at < tile.width * tile.height; at += lanes) {
         const std::int32_t row = at / lanes, filled = stack.filled[row];
+        if (filled == 0) {
+            store_interleaved(&out[at].entry, splat(1.0f), splat(1.0f));
+            continue;
+        }
         Counter counter;
         counter.static_receivers = static_receivers;
         for (std::int32_t l = 0; l < filled && any(counter.active); ++l) {

@@ -68,8 +68,44 @@ bool transform_all(const Mesh& mesh, const View& view, const Exec& exec, Buffer<
     return std::any_of(clipped.begin(), clipped.end(), [](int clip) { return clip != 0; });
 }
 
-/// Depth range of each planar face, over all its triangles.
-void face_ranges(const Mesh& mesh, const View& view, const Exec& exec, TriangleSetup& s) {
+/// Depth range of one triangle, as ordered integers.
+struct OrderedRange {
+    std::int32_t low, high;
+};
+OrderedRange triangle_range(const Mesh& mesh, const View& view, const TriangleSetup& s, std::size_t t) {
+    const Triangle& tri = mesh.triangles[t];
+    const MapVertex &p = s.vertices[tri.v[0]], &q = s.vertices[tri.v[1]], &r = s.vertices[tri.v[2]];
+    // Depth means nothing before the near plane: a face that reaches there may have any.
+    if (((p.clip | q.clip | r.clip) & clip_near) != 0)
+        return {ordered(view.min_depth), ordered(view.max_depth)};
+    return {ordered(std::min({p.z, q.z, r.z})), ordered(std::max({p.z, q.z, r.z}))};
+}
+
+/// Planes of faces whose triangles stand one after the other, as meshes mostly come: one pass, each block of
+/// triangles takes the faces that begin in it.
+void planes_of_runs(const Mesh& mesh, const View& view, const Mat4& from_map, const Exec& exec,
+                    TriangleSetup& s) {
+    const std::size_t triangles = mesh.triangles.size();
+    parallel_blocks(triangles, block_triangles, exec, [&](std::size_t begin, std::size_t end) {
+        std::size_t t = begin;
+        while (t < end && t > 0 && mesh.face[t] == mesh.face[t - 1])
+            ++t;
+        while (t < end) {
+            const std::uint32_t face = mesh.face[t];
+            OrderedRange range = triangle_range(mesh, view, s, t);
+            for (++t; t < triangles && mesh.face[t] == face; ++t) {
+                const OrderedRange next = triangle_range(mesh, view, s, t);
+                range = {std::min(range.low, next.low), std::max(range.high, next.high)};
+            }
+            s.planes[face] =
+                depth_plane(mesh.faces[face], from_map, from_ordered(range.low), from_ordered(range.high));
+        }
+    });
+}
+
+/// Planes of faces whose triangles are scattered over the mesh.
+void planes_of_scattered(const Mesh& mesh, const View& view, const Mat4& from_map, const Exec& exec,
+                         TriangleSetup& s) {
     const std::size_t faces = mesh.faces.size();
     s.face_low.reset(faces);
     s.face_high.reset(faces);
@@ -77,29 +113,31 @@ void face_ranges(const Mesh& mesh, const View& view, const Exec& exec, TriangleS
     std::fill(s.face_high.begin(), s.face_high.end(), ordered(view.min_depth));
     parallel_blocks(mesh.triangles.size(), block_triangles, exec, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
-            const Triangle& tri = mesh.triangles[t];
-            const MapVertex &p = s.vertices[tri.v[0]], &q = s.vertices[tri.v[1]], &r = s.vertices[tri.v[2]];
-            float low = std::min({p.z, q.z, r.z}), high = std::max({p.z, q.z, r.z});
-            // Depth means nothing before the near plane: a face that reaches there may have any.
-            if (((p.clip | q.clip | r.clip) & clip_near) != 0) {
-                low = view.min_depth;
-                high = view.max_depth;
-            }
-            lower_to(s.face_low[mesh.face[t]], ordered(low));
-            raise_to(s.face_high[mesh.face[t]], ordered(high));
+            const OrderedRange range = triangle_range(mesh, view, s, t);
+            lower_to(s.face_low[mesh.face[t]], range.low);
+            raise_to(s.face_high[mesh.face[t]], range.high);
         }
     });
-}
-
-void face_planes(const Mesh& mesh, const View& view, const Exec& exec, TriangleSetup& s) {
-    s.planes.reset(mesh.faces.size());
-    const Mat4 from_map = inverse(view.to_map);
-    parallel_blocks(mesh.faces.size(), block_triangles, exec, [&](std::size_t begin, std::size_t end) {
+    parallel_blocks(faces, block_triangles, exec, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
             s.planes[f] = depth_plane(mesh.faces[f], from_map, from_ordered(s.face_low[f]),
                                       from_ordered(s.face_high[f]));
         }
     });
+}
+
+/// One depth plane for each planar face, with the depth range of all its triangles.
+void face_planes(const Mesh& mesh, const View& view, const Exec& exec, TriangleSetup& s) {
+    s.planes.reset(mesh.faces.size());
+    const Mat4 from_map = inverse(view.to_map);
+    // Faces are numbered by their first triangle, so in a mesh of runs the numbers never fall.
+    std::vector<int> falls((mesh.face.size() + block_triangles - 1) / block_triangles, 0);
+    parallel_blocks(mesh.face.size(), block_triangles, exec, [&](std::size_t begin, std::size_t end) {
+        const std::size_t last = std::min(end + 1, mesh.face.size());
+        falls[begin / block_triangles] = !std::is_sorted(mesh.face.data() + begin, mesh.face.data() + last);
+    });
+    const bool runs = std::find(falls.begin(), falls.end(), 1) == falls.end();
+    runs ? planes_of_runs(mesh, view, from_map, exec, s) : planes_of_scattered(mesh, view, from_map, exec, s);
 }
 
 struct SnappedVertex {
@@ -259,7 +297,6 @@ void setup_triangles(const Mesh& mesh, const View& view, const SetupParams& para
     setup.blocks.clear();
     if (mesh.triangles.empty()) return;
     const bool clipping = transform_all(mesh, view, exec, setup.vertices);
-    face_ranges(mesh, view, exec, setup);
     face_planes(mesh, view, exec, setup);
     lay_out_blocks(mesh, clipping, exec, setup);
     parallel_for(setup.blocks.size(), exec, [&](std::size_t b) {
