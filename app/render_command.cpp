@@ -17,6 +17,7 @@
 #include "app/render_stats.h"
 #include "app/scene_build.h"
 #include "app/signals.h"
+#include "core/edges.h"
 #include "core/error.h"
 #include "core/file_output.h"
 #include "core/parallel.h"
@@ -160,6 +161,21 @@ void say_frame(const FrameReport& report, int verbosity) {
                s.records, s.samples, s.covered_samples);
 }
 
+/// Tells what is right to ask for but often a mistake: nothing to see, a sun that has set.
+void say_notes(const Scene& scene, int frame) {
+    const Mesh& mesh = scene.mesh;
+    const bool solid = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        return !is_degenerate(mesh.positions[t.v[0]], mesh.positions[t.v[1]], mesh.positions[t.v[2]]);
+    });
+    if (!solid)
+        fmt::print(stderr, "obscura: note: no mesh has a triangle with an area; only the sky is seen\n");
+    for (const Light& light : scene.lights) {
+        if (!light.below_horizon) continue;
+        fmt::print(stderr, "obscura: note: light '{}' is below the horizon in frame {} and sheds no light\n",
+                   light.id, frame);
+    }
+}
+
 /// All frames, one after the other; each uses all threads.
 void render_frames(RenderPlan& plan, Scene& scene, const RenderOptions& options, RenderReport& report) {
     Progress progress(stderr, Progress::style_for(stderr, options.quiet));
@@ -176,6 +192,7 @@ void render_frames(RenderPlan& plan, Scene& scene, const RenderOptions& options,
         FrameReport& frame_report = report.frames.emplace_back();
         frame_report.frame = number;
         set_frame(scene, plan.document, number);
+        if (i == 0 && !options.quiet) say_notes(scene, number);
         in_stage(fmt::format("rendering frame {}", number),
                  [&] { render_frame(scene, plan.frame_options, options.exec, cache, frame); });
         stop_if_requested();

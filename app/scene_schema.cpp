@@ -123,7 +123,10 @@ std::optional<std::string> nearest(std::string_view name, const std::vector<std:
     std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
     std::optional<std::string> found;
     for (const std::string& candidate : names) {
-        const std::size_t distance = edit_distance(name, candidate);
+        // A key without its unit counts as a slip of one letter.
+        const bool lacks_unit = !name.empty() && candidate.size() > name.size() + 1 &&
+                                candidate.compare(0, name.size(), name) == 0 && candidate[name.size()] == '_';
+        const std::size_t distance = lacks_unit ? 1 : edit_distance(name, candidate);
         if (distance < best && distance < candidate.size()) {
             best = distance;
             found = candidate;

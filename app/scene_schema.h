@@ -103,7 +103,7 @@ std::string unit_of(std::string_view key);
 std::string allowed_text(const KeySpec& key);
 
 /// The nearest of `names` when it is near enough to be a slip of the pen: at most two edits (insert, delete,
-/// replace, swap neighbours), or a third of the name.
+/// replace, swap neighbours), a third of the name, or the unit at its end (`vfov` for `vfov_deg`).
 std::optional<std::string> nearest(std::string_view name, const std::vector<std::string>& names);
 
 /// "; did you mean 'x'?" or "".

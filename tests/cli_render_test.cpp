@@ -213,6 +213,26 @@ TEST(Render, MessagesFitTheirListener) {
     EXPECT_NE(verbose.find("shadow maps"), std::string::npos) << verbose;
 }
 
+TEST(Render, WhatIsLikelyAMistakeIsNoted) {
+    const SceneFolder folder(
+        "[[light]]\nid = \"sun\"\ntype = \"sun\"\nlatitude_deg = 48\nlongitude_deg = 16\n"
+        "time = 2026-06-21T01:00:00+02:00\n");
+    const Outcome night = run_in(folder, {"render", "s.toml"});
+    EXPECT_EQ(night.code, 0);
+    EXPECT_NE(night.err.find("note: light 'sun' is below the horizon in frame 1"), std::string::npos)
+        << night.err;
+    EXPECT_EQ(night.err.find("no mesh"), std::string::npos) << night.err;
+
+    folder.write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+    folder.write("e.toml",
+                 "format = 1\n[camera]\neye_m = [0, 2, 8]\nlook_at_m = [0, 1, 0]\n[render]\nsize_px = "
+                 "[8, 8]\n[[mesh]]\nid = \"m\"\nfile = \"flat.obj\"\n");
+    const Outcome empty = run_in(folder, {"render", "e.toml"});
+    EXPECT_EQ(empty.code, 0) << empty.err;
+    EXPECT_NE(empty.err.find("note: no mesh has a triangle with an area"), std::string::npos) << empty.err;
+    EXPECT_EQ(run_in(folder, {"render", "e.toml", "--overwrite", "-q"}).err, "");
+}
+
 TEST(Render, TerminalsSeeOneLineThatRenewsItself) {
     const SceneFolder folder;
     const auto said = [&](std::vector<std::string> more) {

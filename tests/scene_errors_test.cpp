@@ -171,7 +171,8 @@ std::string repeated(const std::string& piece, int count) {
 }
 
 TEST(SceneHints, NameTheNearestKeyThatIsNear) {
-    EXPECT_EQ(nearest("vfov", {"eye_m", "vfov_deg"}), std::nullopt);
+    EXPECT_EQ(nearest("vfov", {"eye_m", "vfov_deg"}), "vfov_deg") << "only the unit is missing";
+    EXPECT_EQ(nearest("vf", {"eye_m", "vfov_deg"}), std::nullopt);
     EXPECT_EQ(nearest("vfv_de", {"eye_m", "vfov_deg", "vfov"}), "vfov_deg");
     EXPECT_EQ(nearest("ab", {"ba", "xy"}), "ba") << "swapped neighbours are one edit";
     EXPECT_EQ(nearest("ab", {"cd"}), std::nullopt);
