@@ -16,14 +16,34 @@ struct TileRange {
     int x0, y0, x1, y1;  ///< inclusive
 };
 
-/// Calls fn(tile index) for each tile that the record may touch.
+/// Box and edges of a triangle or pair.
+struct Outline {
+    int x_low, y_low, x_high, y_high;
+    EdgeFunction edge[4];
+    int edges;
+};
+
+Outline outline_of(const TriangleRecord* t) {
+    const auto [x_low, x_high] = std::minmax({t->x[0], t->x[1], t->x[2], t[t->paired].x[1]});
+    const auto [y_low, y_high] = std::minmax({t->y[0], t->y[1], t->y[2], t[t->paired].y[1]});
+    return {x_low, y_low, x_high, y_high, {}, t->paired ? 4 : 3};
+}
+
+void add_edges(const TriangleRecord* t, Outline& o) {
+    o.edge[0] = edge_function(t[0], 0);
+    o.edge[1] = edge_function(t[0], 1);
+    o.edge[2] = t->paired ? edge_function(t[1], 0) : edge_function(t[0], 2);
+    if (t->paired) o.edge[3] = edge_function(t[1], 1);
+}
+
+/// Calls fn(tile index) for each tile that the triangle or pair at `t` may touch.
 template <class Fn>
-void for_each_tile(const TriangleRecord& t, const TileBins& bins, int shift, Fn&& fn) {
+void for_each_tile(const TriangleRecord* t, const TileBins& bins, int shift, Fn&& fn) {
     const int bits = subtexel_bits + shift;
-    const TileRange r = {std::max(std::min({t.x[0], t.x[1], t.x[2]}) >> bits, 0),
-                         std::max(std::min({t.y[0], t.y[1], t.y[2]}) >> bits, 0),
-                         std::min(std::max({t.x[0], t.x[1], t.x[2]}) >> bits, bins.columns - 1),
-                         std::min(std::max({t.y[0], t.y[1], t.y[2]}) >> bits, bins.rows - 1)};
+    Outline o = outline_of(t);
+    const TileRange r = {std::max(o.x_low >> bits, 0), std::max(o.y_low >> bits, 0),
+                         std::min(o.x_high >> bits, bins.columns - 1),
+                         std::min(o.y_high >> bits, bins.rows - 1)};
     const auto index = [&](int x, int y) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(bins.columns) +
                static_cast<std::size_t>(x);
@@ -36,27 +56,31 @@ void for_each_tile(const TriangleRecord& t, const TileBins& bins, int shift, Fn&
         }
         return;
     }
-    const EdgeFunction e[3] = {edge_function(t, 0), edge_function(t, 1), edge_function(t, 2)};
+    add_edges(t, o);
     const std::int64_t side = std::int64_t{1} << bits;
     for (int y = r.y0; y <= r.y1; ++y) {
         for (int x = r.x0; x <= r.x1; ++x) {
             // A tile is out when its most inner corner is outside one edge.
-            const auto outside = [&](const EdgeFunction& f) {
-                return f.at((x + (f.A > 0)) * side, (y + (f.B > 0)) * side) < 0;
-            };
-            if (!outside(e[0]) && !outside(e[1]) && !outside(e[2])) fn(index(x, y));
+            bool outside = false;
+            for (int k = 0; k < o.edges; ++k) {
+                const EdgeFunction& f = o.edge[k];
+                outside = outside || f.at((x + (f.A > 0)) * side, (y + (f.B > 0)) * side) < 0;
+            }
+            if (!outside) fn(index(x, y));
         }
     }
 }
 
-/// Calls fn(record, index) for the records of chunk c.
+/// Calls fn(record, index) for the triangles and pairs of chunk c.
 template <class Fn>
 void for_each_record(const TriangleSetup& setup, std::size_t c, std::size_t chunks, Fn&& fn) {
     const std::size_t blocks = setup.blocks.size();
     for (std::size_t b = blocks * c / chunks; b < blocks * (c + 1) / chunks; ++b) {
         const RecordBlock& block = setup.blocks[b];
-        for (std::size_t i = block.begin; i < block.begin + block.count; ++i)
-            fn(setup.records[i], i);
+        for (std::size_t i = block.begin; i < block.begin + block.count; ++i) {
+            fn(&setup.records[i], i);
+            i += setup.records[i].paired ? 1 : 0;
+        }
     }
 }
 
@@ -77,7 +101,7 @@ void bin_records(const TriangleSetup& setup, int width, int height, int tile, co
     parallel_for(chunks, exec, [&](std::size_t c) {
         std::uint32_t* counts = bins.counts.data() + c * tiles;
         std::fill_n(counts, tiles, 0u);
-        for_each_record(setup, c, chunks, [&](const TriangleRecord& t, std::size_t) {
+        for_each_record(setup, c, chunks, [&](const TriangleRecord* t, std::size_t) {
             for_each_tile(t, bins, shift, [&](std::size_t i) { ++counts[i]; });
         });
     });
@@ -101,7 +125,7 @@ void bin_records(const TriangleSetup& setup, int width, int height, int tile, co
     // Scatter.
     parallel_for(chunks, exec, [&](std::size_t c) {
         std::uint32_t* place = bins.counts.data() + c * tiles;
-        for_each_record(setup, c, chunks, [&](const TriangleRecord& t, std::size_t i) {
+        for_each_record(setup, c, chunks, [&](const TriangleRecord* t, std::size_t i) {
             for_each_tile(t, bins, shift,
                           [&](std::size_t k) { bins.items[place[k]++] = static_cast<std::uint32_t>(i); });
         });

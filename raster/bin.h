@@ -27,8 +27,8 @@ struct TileBins {
     }
 };
 
-/// Bins every record whose triangle may touch a sample of a tile of the width x height map. `tile` is a power
-/// of two. Throws LimitError when the lists would pass 2^32 entries.
+/// Bins every record (of a pair the first) that may touch a sample of a tile of the width x height map.
+/// `tile` is a power of two. Throws LimitError when the lists would pass 2^32 entries.
 void bin_records(const TriangleSetup& setup, int width, int height, int tile, const Exec& exec,
                  TileBins& bins);
 

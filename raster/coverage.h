@@ -43,6 +43,12 @@ inline bool covers(const TriangleRecord& t, std::int32_t x, std::int32_t y, std:
            edge_function(t, 2).at(px, py) >= 0;
 }
 
+/// The same for what stands at `t`: a triangle, or both halves of a pair.
+inline bool covers_outline(const TriangleRecord* t, std::int32_t x, std::int32_t y,
+                           std::int32_t sample_x = 128, std::int32_t sample_y = 128) {
+    return covers(t[0], x, y, sample_x, sample_y) || (t[0].paired && covers(t[1], x, y, sample_x, sample_y));
+}
+
 /// Map coordinate of a sample, exact in double.
 inline double sample_position(std::int32_t texel, std::int32_t sample) {
     return static_cast<double>(texel) + static_cast<double>(sample) * (1.0 / subtexel_one);

@@ -15,7 +15,9 @@ constexpr int tile_side = 64;
 void depth_map(const Mesh& mesh, const View& view, const SetupParams& params, const Exec& exec,
                RasterScratch& scratch, ImageView<float> out) {
     CHECK(out.width == view.width && out.height == view.height);
-    setup_triangles(mesh, view, params, exec, scratch.setup);
+    SetupParams setup_params = params;
+    setup_params.pair_faces = true;
+    setup_triangles(mesh, view, setup_params, exec, scratch.setup);
     bin_records(scratch.setup, view.width, view.height, tile_side, exec, scratch.bins);
     const TileBins& bins = scratch.bins;
     parallel_for(static_cast<std::size_t>(bins.rows), exec, [&](std::size_t tile_row) {

@@ -6,12 +6,12 @@
 namespace obscura::ref {
 namespace {
 
-/// Calls fn(offset, depth) for every sample of the tile that the record covers.
+/// Calls fn(offset, depth) for every sample of the tile that the triangle or pair at t covers.
 template <class Fn>
 void for_each_sample(const TriangleRecord& t, const TileRect& tile, Fn&& fn) {
     for (std::int32_t y = 0; y < tile.height; ++y) {
         for (std::int32_t x = 0; x < tile.width; ++x) {
-            if (!covers(t, tile.x0 + x, tile.y0 + y, tile.sample_x, tile.sample_y)) continue;
+            if (!covers_outline(&t, tile.x0 + x, tile.y0 + y, tile.sample_x, tile.sample_y)) continue;
             const double X = sample_position(tile.x0 + x, tile.sample_x);
             const double Y = sample_position(tile.y0 + y, tile.sample_y);
             fn(y * tile.width + x, depth_at(t, X, Y));

@@ -25,6 +25,7 @@ void interval_map(const Mesh& mesh, const LightView& view, const IntervalParams&
     CHECK(out.width == view.width && out.height == view.height);
     SetupParams setup_params;
     setup_params.only_casters = params.only_casters;
+    setup_params.pair_faces = true;
     setup_triangles(mesh, view, setup_params, exec, scratch.setup);
     bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
     const TileBins& bins = scratch.bins;

@@ -75,7 +75,7 @@ void layer_tile(const TriangleRecord* records, const std::uint32_t* list, std::s
         const TriangleRecord& t = records[list[i]];
         for (std::int32_t y = 0; y < tile.height; ++y) {
             for (std::int32_t x = 0; x < tile.width; ++x) {
-                if (!covers(t, tile.x0 + x, tile.y0 + y, tile.sample_x, tile.sample_y)) continue;
+                if (!covers_outline(&t, tile.x0 + x, tile.y0 + y, tile.sample_x, tile.sample_y)) continue;
                 const float z = depth_at(t, sample_position(tile.x0 + x, tile.sample_x),
                                          sample_position(tile.y0 + y, tile.sample_y));
                 insert(stack, y * tile.width + x, layer_key(z, t.crossing), t.triangle);

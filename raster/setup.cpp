@@ -160,7 +160,7 @@ class BlockSetup {
           only_casters_(params.only_casters && !mesh.objects.empty()) {}
 
     void run(std::size_t begin, std::size_t end, RecordBlock& block) {
-        out_ = setup_.records.data() + block.begin;
+        out_ = begin_ = setup_.records.data() + block.begin;
         for (std::size_t t = begin; t < end; ++t) {
             if (only_casters_ && !mesh_.objects[mesh_.object[t]].casts_shadow) continue;
             const Triangle& tri = mesh_.triangles[t];
@@ -173,7 +173,7 @@ class BlockSetup {
                 emit_clipped(id, tri);
             }
         }
-        block.count = static_cast<std::size_t>(out_ - (setup_.records.data() + block.begin));
+        block.count = static_cast<std::size_t>(out_ - begin_);
     }
 
   private:
@@ -204,6 +204,44 @@ class BlockSetup {
         const DepthPlane& plane = setup_.planes[mesh_.face[t]];
         *out_++ = {{p.x, q.x, r.x}, {p.y, q.y, r.y}, plane.a, plane.b, plane.c,
                    plane.zmin,      plane.zmax,      t,       crossing};
+        if (params_.pair_faces) pair_with_last();
+    }
+
+    /// Makes a pair of the last two records where they are the halves of a convex quadrilateral: one planar
+    /// face, one crossing, an edge in common, and no corner that turns in.
+    void pair_with_last() {
+        if (out_ - begin_ < 2) return;
+        TriangleRecord* const p = out_ - 2;
+        TriangleRecord* const q = out_ - 1;
+        if (p->paired || q->crossing != p->crossing || paired_with_ == p) return;
+        if (mesh_.face[p->triangle] != mesh_.face[q->triangle]) return;
+        for (int k = 0; k < 3; ++k) {
+            for (int l = 0; l < 3; ++l) {
+                // Corners k + 2 -> k of the one run as corners l + 2 -> l of the other, the other way.
+                const int k2 = (k + 2) % 3, l2 = (l + 2) % 3;
+                if (p->x[k] != q->x[l2] || p->y[k] != q->y[l2] || p->x[k2] != q->x[l] || p->y[k2] != q->y[l])
+                    continue;
+                turn(*p, k);
+                turn(*q, l);
+                p->paired = turns_out(*q, 1, *p, 0, *p, 1) && turns_out(*p, 1, *p, 2, *q, 1);
+                if (p->paired) paired_with_ = q;
+                return;
+            }
+        }
+    }
+
+    /// Renumbers the corners so that corner k comes first.
+    static void turn(TriangleRecord& t, int k) {
+        std::rotate(t.x, t.x + k, t.x + 3);
+        std::rotate(t.y, t.y + k, t.y + 3);
+    }
+
+    /// Whether the way over three corners turns to the inside or goes straight on.
+    static bool turns_out(const TriangleRecord& a, int i, const TriangleRecord& b, int j,
+                          const TriangleRecord& c, int k) {
+        const std::int64_t ux = b.x[j] - std::int64_t{a.x[i]}, uy = b.y[j] - std::int64_t{a.y[i]};
+        const std::int64_t vx = c.x[k] - std::int64_t{b.x[j]}, vy = c.y[k] - std::int64_t{b.y[j]};
+        return ux * vy - uy * vx >= 0;
     }
 
     void emit_clipped(std::uint32_t t, const Triangle& tri) {
@@ -232,7 +270,8 @@ class BlockSetup {
     const SetupParams& params_;
     TriangleSetup& setup_;
     bool only_casters_;  ///< a mesh without named objects casts as a whole
-    TriangleRecord* out_ = nullptr;
+    TriangleRecord *begin_ = nullptr, *out_ = nullptr;
+    const TriangleRecord* paired_with_ = nullptr;  ///< second half of the last pair
 };
 
 /// Room for each block: one record a triangle, but six where a triangle must be clipped (eight corners at

@@ -22,6 +22,8 @@ enum class Culling { none, exits, back_faces };
 struct SetupParams {
     bool only_casters = false;  ///< leave out objects that cast no shadow
     Culling culling = Culling::none;
+    bool pair_faces = false;  ///< mark pairs (see TriangleRecord), for loops that need not know the triangle;
+                              ///< lists of records then name only the first of a pair, as bin_records() does
     bool centre_samples_only = true;  ///< leave out what lies between texel centres (single-sample maps)
 };
 

@@ -26,6 +26,7 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
     CHECK(view.width == view.height && view.width % 4 == 0);
     SetupParams params;
     params.only_casters = true;
+    params.pair_faces = true;
     setup_triangles(mesh, view, params, exec, scratch.setup);
     bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
     stored.size = view.width;

@@ -1,5 +1,6 @@
 #pragma once
-// The inner loop of every sample kernel: which samples of a tile a triangle covers, and at what depth.
+// The inner loop of every sample kernel: which samples of a tile a triangle, or a pair of them,
+// covers, and at what depth.
 // Kernel files only. The meaning is raster/coverage.h, sample by sample; this is the same in rows of sixteen.
 //
 // What the field does (Pineda 1988; Abrash, "Rasterization on Larrabee", 2009) and we do too: test the box,
@@ -30,11 +31,18 @@ struct SampleBox {
     bool empty() const { return c0 > c1 || r0 > r1; }
 };
 
-OBSCURA_INLINE SampleBox sample_box(const TriangleRecord& t, const TileRect& tile) {
-    const std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]),
-                       x_high = most(most(t.x[0], t.x[1]), t.x[2]);
-    const std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]),
-                       y_high = most(most(t.y[0], t.y[1]), t.y[2]);
+/// N = 3: a triangle; N = 4: the pair that begins at `t`.
+template <int N>
+OBSCURA_INLINE SampleBox sample_box(const TriangleRecord* pair, const TileRect& tile) {
+    const TriangleRecord& t = pair[0];
+    std::int32_t x_low = least(least(t.x[0], t.x[1]), t.x[2]), x_high = most(most(t.x[0], t.x[1]), t.x[2]);
+    std::int32_t y_low = least(least(t.y[0], t.y[1]), t.y[2]), y_high = most(most(t.y[0], t.y[1]), t.y[2]);
+    if constexpr (N == 4) {
+        x_low = least(x_low, pair[1].x[1]);
+        x_high = most(x_high, pair[1].x[1]);
+        y_low = least(y_low, pair[1].y[1]);
+        y_high = most(y_high, pair[1].y[1]);
+    }
     const auto first = [](std::int32_t v, std::int32_t sample) {
         return (v - sample + 255) >> subtexel_bits;
     };
@@ -51,8 +59,12 @@ struct BoxEdge {
     std::int64_t e = 0, A = 0, B = 0;
 };
 
-OBSCURA_INLINE BoxEdge box_edge(const TriangleRecord& t, int k, const TileRect& tile, std::int32_t column,
+/// Edge k of the outline: a triangle's three, or a pair's four (0 and 1 of each half).
+template <int N>
+OBSCURA_INLINE BoxEdge box_edge(const TriangleRecord* pair, int k, const TileRect& tile, std::int32_t column,
                                 std::int32_t row) {
+    const TriangleRecord& t = N == 4 && k >= 2 ? pair[1] : pair[0];
+    if (N == 4 && k >= 2) k -= 2;
     const int n = k == 2 ? 0 : k + 1;
     BoxEdge f;
     f.A = static_cast<std::int64_t>(t.y[k]) - t.y[n];
@@ -99,12 +111,12 @@ OBSCURA_INLINE void walk_covered(const TriangleRecord& t, const TileRect& tile, 
 }
 
 /// The same where edges cross. V: I32 or I64 lanes; T: their type.
-template <class V, class T, class Consumer>
-OBSCURA_INLINE void walk_edges(const TriangleRecord& t, const TileRect& tile, const BoxEdge (&edge)[3],
+template <class V, class T, int N, class Consumer>
+OBSCURA_INLINE void walk_edges(const TriangleRecord& t, const TileRect& tile, const BoxEdge (&edge)[N],
                                std::int32_t skipped_columns, std::int32_t column, std::int32_t r0,
                                std::int32_t r1, const V& lane, const DepthRow& depth, Consumer& consumer) {
-    V e[3], step[3];
-    for (int k = 0; k < 3; ++k) {
+    V e[N], step[N];
+    for (int k = 0; k < N; ++k) {
         // Wrapping arithmetic on purpose: products may leave the type, the sums lie between low and high
         // again.
         const auto base = static_cast<T>(edge[k].e + edge[k].A * skipped_columns);
@@ -113,10 +125,13 @@ OBSCURA_INLINE void walk_edges(const TriangleRecord& t, const TileRect& tile, co
     }
     const double sample_y = static_cast<double>(tile.sample_y) * (1.0 / subtexel_one);
     for (std::int32_t r = r0; r <= r1; ++r) {
-        const Mask inside = not_negative(e[0] | e[1] | e[2]);
+        V signs = e[0];
+        for (int k = 1; k < N; ++k)
+            signs = signs | e[k];
+        const Mask inside = not_negative(signs);
         const double Y = static_cast<double>(tile.y0 + r) + sample_y;
         consumer.partial(r * tile.width + column, inside, depth.at(t.b * Y + t.c));
-        for (int k = 0; k < 3; ++k)
+        for (int k = 0; k < N; ++k)
             e[k] = e[k] + step[k];
     }
 }
@@ -132,17 +147,18 @@ OBSCURA_INLINE DepthRow depth_row(const TriangleRecord& t, const TileRect& tile,
     return {splat(t.a) * column_positions(tile, column), splat(t.zmin), splat(t.zmax)};
 }
 
-/// Boxes of several columns of sixteen, and triangles of any size.
-template <class Consumer>
-OBSCURA_INLINE void walk_box(const TriangleRecord& t, const TileRect& tile, const SampleBox& box,
+/// Boxes of several columns of sixteen, and outlines of any size.
+template <int N, class Consumer>
+OBSCURA_INLINE void walk_box(const TriangleRecord* pair, const TileRect& tile, const SampleBox& box,
                              Consumer& consumer) {
+    const TriangleRecord& t = pair[0];
     const std::int32_t c0 = box.c0 & ~15, columns = (box.c1 | 15) - c0 + 1, rows = box.r1 - box.r0 + 1;
 
-    // An edge with the whole box inside it is forgotten; one with the whole box outside ends the triangle.
-    BoxEdge edge[3];
+    // An edge with the whole box inside it is forgotten; one with the whole box outside ends the walk.
+    BoxEdge edge[N];
     bool wide = false, crossed = false;
-    for (int k = 0; k < 3; ++k) {
-        edge[k] = box_edge(t, k, tile, c0, box.r0);
+    for (int k = 0; k < N; ++k) {
+        edge[k] = box_edge<N>(pair, k, tile, c0, box.r0);
         const EdgeRange range = edge_range(edge[k].e, edge[k], columns, rows);
         if (range.high < 0) return;
         if (range.low >= 0) {
@@ -178,25 +194,35 @@ OBSCURA_INLINE void walk_box(const TriangleRecord& t, const TileRect& tile, cons
     }
 }
 
-/// Feeds every covered sample of `tile` to the consumer, in rows of sixteen texels:
-/// consumer.covered(offset, depth) or consumer.partial(offset, mask, depth); offset = row * width + column.
-/// partial() may be called with an empty mask.
-template <class Consumer>
-OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile, Consumer& consumer) {
-    const SampleBox box = sample_box(t, tile);
+template <int N, class Consumer>
+OBSCURA_INLINE void walk_outline(const TriangleRecord* pair, const TileRect& tile, Consumer& consumer) {
+    const SampleBox box = sample_box<N>(pair, tile);
     if (box.empty()) return;
     const std::int32_t column = box.c0 & ~15;
     if (!box.small || box.c1 - column >= lanes) {
-        walk_box(t, tile, box, consumer);
+        walk_box<N>(pair, tile, box, consumer);
         return;
     }
     // Most triangles of a fine mesh: one column of sixteen, and edge functions that fit 32 bits all over the
     // tile (steps below 2^16, at most 2^9 of them). Asking more of them would cost more than testing their
     // rows.
-    const BoxEdge edge[3] = {box_edge(t, 0, tile, column, box.r0), box_edge(t, 1, tile, column, box.r0),
-                             box_edge(t, 2, tile, column, box.r0)};
-    walk_edges<I32, std::int32_t>(t, tile, edge, 0, column, box.r0, box.r1, lane_index(),
-                                  depth_row(t, tile, column), consumer);
+    BoxEdge edge[N];
+    for (int k = 0; k < N; ++k)
+        edge[k] = box_edge<N>(pair, k, tile, column, box.r0);
+    walk_edges<I32, std::int32_t>(pair[0], tile, edge, 0, column, box.r0, box.r1, lane_index(),
+                                  depth_row(pair[0], tile, column), consumer);
+}
+
+/// Feeds every covered sample of `tile` to the consumer, in rows of sixteen texels:
+/// consumer.covered(offset, depth) or consumer.partial(offset, mask, depth); offset = row * width + column.
+/// partial() may be called with an empty mask.
+template <class Consumer>
+OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile, Consumer& consumer) {
+    if (t.paired) {
+        walk_outline<4>(&t, tile, consumer);
+    } else {
+        walk_outline<3>(&t, tile, consumer);
+    }
 }
 
 /// Calls fn(record) for each record of a list, fetching some ahead: lists jump through memory.
