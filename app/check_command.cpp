@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "app/keyframes.h"
 #include "app/scene_build.h"
+#include "raster/view.h"
 
 namespace obscura {
 namespace {
@@ -59,15 +61,24 @@ const char* kind_text(LightKind kind) {
     return "";
 }
 
-std::string light_text(const Light& light) {
+/// ", texels of 34 mm": how fine the parallel light's map is; it covers all of the scene.
+std::string texel_text(const Light& light, const Bounds& bounds) {
+    const bool parallel = light.kind == LightKind::directional || light.kind == LightKind::sun;
+    if (!parallel || bounds.empty()) return "";
+    const LightView view = orthographic_light_view(bounds, light.direction, light.shadow.resolution);
+    const auto& x = view.to_map.m[0];
+    return fmt::format(", texels of {:.3g} mm", 1000 / std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+}
+
+std::string light_text(const Light& light, const Bounds& bounds) {
     std::string out = fmt::format("light     {}: {}", light.id, kind_text(light.kind));
     if (light.below_horizon) out += ", below the horizon in the first frame";
     const int maps = shadow_map_count(light);
     if (maps == 0) return out + ", no shadows\n";
     const int n = light.shadow.resolution;
-    return out + fmt::format(", {} shadow map{} of {} x {}, filter {} x {}, {}\n", maps, maps == 1 ? "" : "s",
-                             n, n, light.shadow.filter_px, light.shadow.filter_px,
-                             size_text(shadow_map_bytes(light)));
+    return out + fmt::format(", {} shadow map{} of {} x {}{}, filter {} x {}, {}\n", maps,
+                             maps == 1 ? "" : "s", n, n, texel_text(light, bounds), light.shadow.filter_px,
+                             light.shadow.filter_px, size_text(shadow_map_bytes(light)));
 }
 
 std::string mesh_text(const Scene& scene) {
@@ -101,8 +112,9 @@ std::string check_report(const CheckOptions& options) {
     const Scene scene = build_scene(document, FileAccess{document.folder, options.allowed_paths});
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
+    const Bounds bounds = bounds_of(scene.mesh);
     for (const Light& light : scene.lights)
-        out += light_text(light);
+        out += light_text(light, bounds);
     return out + mesh_text(scene) + memory_text(scene) + "ok\n";
 }
 

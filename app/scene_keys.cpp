@@ -175,7 +175,10 @@ const TableSpec& shadow_table() {
         {
             choice_key("method", {"none", "map"}, "none: the light passes through everything.")
                 .or_else("map"),
-            integer_key("resolution", "Texels per side of a map; points use six maps.")
+            integer_key(
+                "resolution",
+                "Texels per side of a map; points use six maps. The map of a parallel light covers the whole "
+                "scene: keep grounds small; `obscura check` tells the size of a texel.")
                 .one_of({16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384})
                 .or_else(std::int64_t{d.resolution}),
             integer_key("filter_px", "Side of the percentage-closer filter, in texels.")

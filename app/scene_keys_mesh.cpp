@@ -39,7 +39,7 @@ const TableSpec& mesh_table() {
              {file_key("file", "OBJ file, relative to the scene file and inside its folder.").need(),
               number_key("crease_angle_deg",
                          "Where the file has neither normals nor smoothing groups: smooth across edges "
-                         "that bend less than this.")
+                         "that bend less than this. 20 suits buildings, 180 scans.")
                   .in({0, 180})
                   .or_else(40.0)}});
         for (const ShapeSpec& shape : shapes()) {

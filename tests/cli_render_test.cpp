@@ -233,6 +233,14 @@ TEST(Render, WhatIsLikelyAMistakeIsNoted) {
     EXPECT_EQ(run_in(folder, {"render", "e.toml", "--overwrite", "-q"}).err, "");
 }
 
+TEST(Check, TellsHowFineTheMapOfAParallelLightIs) {
+    const SceneFolder folder;
+    const Outcome run = run_in(
+        folder, {"check", "s.toml", "-D", "light.lamp.azimuth_deg=0", "-D", "light.lamp.elevation_deg=0"});
+    // 2 m over 256 texels, one of them margin at each side.
+    EXPECT_NE(run.out.find("256 x 256, texels of 7.87 mm"), std::string::npos) << run.out << run.err;
+}
+
 TEST(Render, TerminalsSeeOneLineThatRenewsItself) {
     const SceneFolder folder;
     const auto said = [&](std::vector<std::string> more) {
