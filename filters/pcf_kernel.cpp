@@ -111,8 +111,8 @@ OBSCURA_INLINE F32 filtered_side(const PcfView& view, const Receivers16& r, cons
     return filtered<side, false>(view, r, ix, iy, fx, fy);
 }
 
-OBSCURA_INLINE F32 lookup(const PcfView& view, int side, const Vec3x16& p, const Vec3x16& offset_way,
-                          bool any_open, const Mask& todo) {
+F32 lookup(const PcfView& view, int side, const Vec3x16& p, const Vec3x16& offset_way, bool any_open,
+           const Mask& todo) {
     const Receivers16 r = place(view, p, offset_way, any_open);
     F32 seen;
     if (side == 1) {
@@ -135,7 +135,7 @@ OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
     return select(less_equal(ay, ax) & less_equal(az, ax), face(d.x, 0), y_or_z);
 }
 
-OBSCURA_INLINE F32 group_visibility(const SurfaceBlock& s, const PcfLight& light, int at) {
+F32 group_visibility(const SurfaceBlock& s, const PcfLight& light, int at) {
     const std::uint32_t covered = s.covered[at / 16];
     F32 visibility = splat(0.0f);
     if (covered == 0) return visibility;

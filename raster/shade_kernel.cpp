@@ -99,8 +99,8 @@ OBSCURA_INLINE Vec3x16 ambient(const ShadeSky& sky, const MaterialLanes& m, cons
     return (diffuse * irradiance + f * mirrored) * splat(sky.ambient);
 }
 
-OBSCURA_INLINE Vec3x16 surface_radiance(const SurfaceBlock& s, const ShadeMaterial* materials,
-                                        const ShadeSky& sky, const Vec3x16& v, ShadeBlock& out, int at) {
+Vec3x16 surface_radiance(const SurfaceBlock& s, const ShadeMaterial* materials, const ShadeSky& sky,
+                         const Vec3x16& v, ShadeBlock& out, int at) {
     const int group = at / 16;
     const MaterialLanes m = read_materials(materials, s.material + at, s.covered[group]);
     Vec3x16 base = m.base;

@@ -66,8 +66,7 @@ OBSCURA_INLINE void blend3(const Mask& m, const float* xyz, Vec3x16& to) {
     to.z = select(m, splat(xyz[2]), to.z);
 }
 
-OBSCURA_INLINE TriangleLanes read_triangles(const SurfaceMesh& mesh, const std::uint32_t* triangle,
-                                            std::uint32_t covered) {
+TriangleLanes read_triangles(const SurfaceMesh& mesh, const std::uint32_t* triangle, std::uint32_t covered) {
     TriangleLanes t;
     const I32 ids = load(reinterpret_cast<const std::int32_t*>(triangle));
     for (std::uint32_t left = covered; left != 0;) {
@@ -141,8 +140,8 @@ OBSCURA_INLINE Vec3x16 smooth_normal(const TriangleLanes& t, const RayTriangle& 
     return select(usable, sum * (splat(1.0f) / sqrt(square)), t.geometric);
 }
 
-OBSCURA_INLINE void texture_coordinates(const TriangleLanes& t, const RayTriangle& m, const BlockRays& rays,
-                                        const Vec3x16& dir, SurfaceBlock& block, int at) {
+void texture_coordinates(const TriangleLanes& t, const RayTriangle& m, const BlockRays& rays,
+                         const Vec3x16& dir, SurfaceBlock& block, int at) {
     const F32 u1 = t.u[1] - t.u[0], u2 = t.u[2] - t.u[0], v1 = t.v[1] - t.v[0], v2 = t.v[2] - t.v[0];
     store(block.u + at, (t.u[0] + u1 * m.b1) + u2 * m.b2);
     store(block.v + at, (t.v[0] + v1 * m.b1) + v2 * m.b2);
@@ -154,8 +153,8 @@ OBSCURA_INLINE void texture_coordinates(const TriangleLanes& t, const RayTriangl
     store(block.vy + at, v1 * y.b1 + v2 * y.b2);
 }
 
-OBSCURA_INLINE void surface_group(const SurfaceMesh& mesh, const CameraRays& rays, const BlockRays& block_ray,
-                                  const Rays& ray, SurfaceBlock& block, int at) {
+void surface_group(const SurfaceMesh& mesh, const CameraRays& rays, const BlockRays& block_ray,
+                   const Rays& ray, SurfaceBlock& block, int at) {
     const Mask here = not_negative(load(reinterpret_cast<const std::int32_t*>(block.triangle) + at));
     const std::uint32_t covered = bits(here);
     const int group = at / 16;
