@@ -194,7 +194,7 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
     if (sees_no_exits(cache.solids, scene.camera, render.width, render.height))
         params.culling = Culling::exits;
     setup_triangles(scene.mesh, t.view, params, exec, cache.camera_scratch.setup);
-    bin_records(cache.camera_scratch.setup, render.width, render.height, frame_tile_side, exec,
+    bin_records(cache.camera_scratch.setup, {0, 0, render.width, render.height}, frame_tile_side, exec,
                 cache.camera_scratch.bins);
     t.setup = &cache.camera_scratch.setup;
     t.bins = &cache.camera_scratch.bins;

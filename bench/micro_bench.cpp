@@ -57,7 +57,7 @@ void Bin(benchmark::State& state, const std::string& name) {
     TileBins bins;
     setup_triangles(s.mesh, s.view, {}, s.exec, setup);
     for (auto _ : state)
-        bin_records(setup, 4096, 4096, 64, s.exec, bins);
+        bin_records(setup, {0, 0, 4096, 4096}, 64, s.exec, bins);
     state.counters["items"] = static_cast<double>(bins.items.size());
 }
 

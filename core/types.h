@@ -36,6 +36,14 @@ struct View {
     float min_depth = 0.0f, max_depth = 1.0f;  ///< range that depths are clamped to
 };
 
+/// Texels [x0, x0 + width) x [y0, y0 + height) of a view or picture. Without texels it stands for all of it,
+/// where a parameter says so.
+struct Region {
+    int x0 = 0, y0 = 0, width = 0, height = 0;
+    bool empty() const { return width <= 0 || height <= 0; }
+    friend bool operator==(const Region&, const Region&) = default;
+};
+
 /// A view from a light.
 using LightView = View;
 

@@ -41,18 +41,16 @@ template <class Fn>
 void for_each_tile(const TriangleRecord* t, const TileBins& bins, int shift, Fn&& fn) {
     const int bits = subtexel_bits + shift;
     Outline o = outline_of(t);
-    const TileRange r = {std::max(o.x_low >> bits, 0), std::max(o.y_low >> bits, 0),
-                         std::min(o.x_high >> bits, bins.columns - 1),
-                         std::min(o.y_high >> bits, bins.rows - 1)};
-    const auto index = [&](int x, int y) {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(bins.columns) +
-               static_cast<std::size_t>(x);
-    };
+    // Places relative to the region's corner.
+    const int x_begin = bins.region.x0 * subtexel_one, y_begin = bins.region.y0 * subtexel_one;
+    const TileRange r = {std::max((o.x_low - x_begin) >> bits, 0), std::max((o.y_low - y_begin) >> bits, 0),
+                         std::min((o.x_high - x_begin) >> bits, bins.columns - 1),
+                         std::min((o.y_high - y_begin) >> bits, bins.rows - 1)};
     // Small boxes: taking a tile too many costs less than asking.
     if ((r.x1 - r.x0) + (r.y1 - r.y0) <= 1) {
         for (int y = r.y0; y <= r.y1; ++y) {
             for (int x = r.x0; x <= r.x1; ++x)
-                fn(index(x, y));
+                fn(bins.index(x, y));
         }
         return;
     }
@@ -64,9 +62,10 @@ void for_each_tile(const TriangleRecord* t, const TileBins& bins, int shift, Fn&
             bool outside = false;
             for (int k = 0; k < o.edges; ++k) {
                 const EdgeFunction& f = o.edge[k];
-                outside = outside || f.at((x + (f.A > 0)) * side, (y + (f.B > 0)) * side) < 0;
+                outside =
+                    outside || f.at(x_begin + (x + (f.A > 0)) * side, y_begin + (y + (f.B > 0)) * side) < 0;
             }
-            if (!outside) fn(index(x, y));
+            if (!outside) fn(bins.index(x, y));
         }
     }
 }
@@ -86,14 +85,15 @@ void for_each_record(const TriangleSetup& setup, std::size_t c, std::size_t chun
 
 }  // namespace
 
-void bin_records(const TriangleSetup& setup, int width, int height, int tile, const Exec& exec,
+void bin_records(const TriangleSetup& setup, const Region& region, int tile, const Exec& exec,
                  TileBins& bins) {
     CHECK(std::has_single_bit(static_cast<unsigned>(tile)));
     const int shift = std::countr_zero(static_cast<unsigned>(tile));
+    bins.region = region;
     bins.tile = tile;
-    bins.columns = (width + tile - 1) / tile;
-    bins.rows = (height + tile - 1) / tile;
-    const std::size_t tiles = static_cast<std::size_t>(bins.columns) * static_cast<std::size_t>(bins.rows);
+    bins.columns = (region.width + tile - 1) / tile;
+    bins.rows = (region.height + tile - 1) / tile;
+    const std::size_t tiles = bins.tiles();
     const std::size_t chunks = std::clamp<std::size_t>(setup.blocks.size(), 1, max_chunks);
 
     // Count.

@@ -2,6 +2,7 @@
 // Sorts records into square tiles: count, prefix sum, scatter. Lists come out in ascending record order,
 // whatever the thread count.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,24 +13,40 @@
 
 namespace obscura {
 
-/// Lists of record indices, tile by tile, row-major.
+/// Lists of record indices, tile by tile, row-major. Tile 0 begins at the corner of the region.
 struct TileBins {
+    Region region;
     int tile = 64;  ///< side in texels
     int columns = 0, rows = 0;
     Buffer<std::uint32_t> first;  ///< columns * rows + 1 offsets into `items`
     Buffer<std::uint32_t> items;
     Buffer<std::uint32_t> counts;  ///< scratch: per chunk and tile
 
-    std::span<const std::uint32_t> list(int column, int row) const {
-        const auto t = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
-                       static_cast<std::size_t>(column);
-        return {items.data() + first[t], first[t + 1] - first[t]};
+    std::size_t tiles() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    std::size_t index(int column, int row) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(column);
+    }
+    std::span<const std::uint32_t> list(std::size_t i) const {
+        return {items.data() + first[i], first[i + 1] - first[i]};
+    }
+    std::span<const std::uint32_t> list(int column, int row) const { return list(index(column, row)); }
+    /// The whole tile, in the view's texels; at the far borders it may reach past the region.
+    TileRect rect(std::size_t i) const {
+        const auto at = static_cast<int>(i);
+        return {region.x0 + at % columns * tile, region.y0 + at / columns * tile, tile, tile};
+    }
+    /// How much of that lies in the region.
+    Region inside(std::size_t i) const {
+        const TileRect r = rect(i);
+        return {r.x0, r.y0, std::min(tile, region.x0 + region.width - r.x0),
+                std::min(tile, region.y0 + region.height - r.y0)};
     }
 };
 
-/// Bins every record (of a pair the first) that may touch a sample of a tile of the width x height map.
-/// `tile` is a power of two. Throws LimitError when the lists would pass 2^32 entries.
-void bin_records(const TriangleSetup& setup, int width, int height, int tile, const Exec& exec,
+/// Bins every record (of a pair the first) that may touch a sample of a tile of `region`. `tile` is a power
+/// of two. Throws LimitError when the lists would pass 2^32 entries.
+void bin_records(const TriangleSetup& setup, const Region& region, int tile, const Exec& exec,
                  TileBins& bins);
 
 }  // namespace obscura

@@ -16,10 +16,15 @@ struct RasterScratch {
     TileBins bins;
 };
 
-/// out(x, y) = least depth over texel (x, y)'s centre; view.max_depth where nothing is. `out` must have the
-/// view's size.
+/// out(x, y) = least depth over the centre of texel (x, y) of params.region (empty: of the view);
+/// view.max_depth where nothing is. `out` must have that size.
 void depth_map(const Mesh& mesh, const View& view, const SetupParams& params, const Exec& exec,
                RasterScratch& scratch, ImageView<float> out);
+
+/// The region that `wanted` means in a view: itself, or all of it.
+inline Region region_of(const View& view, const Region& wanted) {
+    return wanted.empty() ? Region{0, 0, view.width, view.height} : wanted;
+}
 
 /// The same as a new picture.
 Image<float> depth_map(const Mesh& mesh, const View& view, const Exec& exec);

@@ -8,6 +8,8 @@
 
 namespace obscura {
 
+/// Tiles are this wide and high at most.
+constexpr int depth_tile_side = 64;
 constexpr std::uint32_t no_triangle = 0xffffffffu;
 
 /// depth_tile: depth[row * width + column] = least depth of the covered records and of what was there.

@@ -22,26 +22,25 @@ void IntervalTiler::run(const TriangleSetup& setup, std::span<const std::uint32_
 
 void interval_map(const Mesh& mesh, const LightView& view, const IntervalParams& params, const Exec& exec,
                   RasterScratch& scratch, ImageView<DepthInterval> out) {
-    CHECK(out.width == view.width && out.height == view.height);
     SetupParams setup_params;
     setup_params.only_casters = params.only_casters;
     setup_params.pair_faces = true;
+    setup_params.region = region_of(view, params.region);
+    CHECK(out.width == setup_params.region.width && out.height == setup_params.region.height);
     setup_triangles(mesh, view, setup_params, exec, scratch.setup);
-    bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
+    bin_records(scratch.setup, setup_params.region, layer_tile_side, exec, scratch.bins);
     const TileBins& bins = scratch.bins;
-    parallel_for(static_cast<std::size_t>(bins.rows), exec, [&](std::size_t tile_row) {
+    parallel_for(static_cast<std::size_t>(bins.rows), exec, [&](std::size_t row) {
         IntervalTiler tiler;
         alignas(64) DepthInterval result[layer_tile_texels];
         for (int column = 0; column < bins.columns; ++column) {
-            const auto row = static_cast<int>(tile_row);
-            const TileRect tile{column * layer_tile_side, row * layer_tile_side, layer_tile_side,
-                                layer_tile_side};
-            tiler.run(scratch.setup, bins.list(column, row), tile, params.receivers, exec.isa, result);
-            const int width = std::min(layer_tile_side, view.width - tile.x0);
-            const int height = std::min(layer_tile_side, view.height - tile.y0);
-            for (int y = 0; y < height; ++y) {
-                copy_streaming(&out(tile.x0, tile.y0 + y), result + y * layer_tile_side,
-                               static_cast<std::size_t>(width) * sizeof(DepthInterval));
+            const std::size_t i = bins.index(column, static_cast<int>(row));
+            tiler.run(scratch.setup, bins.list(i), bins.rect(i), params.receivers, exec.isa, result);
+            const Region inside = bins.inside(i);
+            for (int y = 0; y < inside.height; ++y) {
+                copy_streaming(&out(inside.x0 - bins.region.x0, inside.y0 - bins.region.y0 + y),
+                               result + y * layer_tile_side,
+                               static_cast<std::size_t>(inside.width) * sizeof(DepthInterval));
             }
         }
         finish_streaming();
@@ -51,7 +50,8 @@ void interval_map(const Mesh& mesh, const LightView& view, const IntervalParams&
 Image<DepthInterval> interval_map(const Mesh& mesh, const LightView& view, const IntervalParams& params,
                                   const Exec& exec) {
     RasterScratch scratch;
-    Image<DepthInterval> out(view.width, view.height);
+    const Region region = region_of(view, params.region);
+    Image<DepthInterval> out(region.width, region.height);
     interval_map(mesh, view, params, exec, scratch, out.view());
     return out;
 }

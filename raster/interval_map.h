@@ -14,6 +14,7 @@ namespace obscura {
 struct IntervalParams {
     Receivers receivers = Receivers::any;
     bool only_casters = true;
+    Region region = {};  ///< texels to render; empty = the whole view
 };
 
 /// Interval of every texel of `tile` (at most layer_tile_side square, width a multiple of 16), row by row
@@ -28,7 +29,8 @@ class IntervalTiler {
     LayerMemory layers_;
 };
 
-/// out(x, y) = interval of texel (x, y)'s ray (see raster/intervals.h). `out` must have the view's size.
+/// out(x, y) = interval of the ray of texel (x, y) of params.region (see raster/intervals.h). `out` must have
+/// that size.
 void interval_map(const Mesh& mesh, const LightView& view, const IntervalParams& params, const Exec& exec,
                   RasterScratch& scratch, ImageView<DepthInterval> out);
 

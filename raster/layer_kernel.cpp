@@ -117,6 +117,8 @@ struct Insertion {
     OBSCURA_INLINE I32 key_of(const F32& z) const {
         return (shift_left<2>(bitcast_i32(z)) | crossing) ^ splat(INT32_MIN);
     }
+    /// Every crossing counts, however deep.
+    OBSCURA_INLINE bool hidden(const TriangleRecord&, const SampleBox&) const { return false; }
     OBSCURA_INLINE void covered(std::int32_t at, const F32& z) { insert(at, key_of(z)); }
     OBSCURA_INLINE void partial(std::int32_t at, const Mask& inside, const F32& z) {
         if (any(inside)) insert(at, select(inside, key_of(z), splat(no_layer)));

@@ -43,41 +43,30 @@ TileLayers layers_of_tile(const RasterScratch& scratch, std::span<const std::uin
 }  // namespace
 
 Layers layers_of(const Mesh& mesh, const LightView& view, const Region& region, const Exec& exec) {
-    CHECK(region.x0 >= 0 && region.y0 >= 0 && region.width >= 0 && region.height >= 0 &&
-          region.x0 + region.width <= view.width && region.y0 + region.height <= view.height);
     RasterScratch scratch;
-    setup_triangles(mesh, view, {}, exec, scratch.setup);
-    bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
-
-    std::vector<TileLayers> tiles(static_cast<std::size_t>(scratch.bins.columns) *
-                                  static_cast<std::size_t>(scratch.bins.rows));
+    SetupParams params;
+    params.region = region;
+    setup_triangles(mesh, view, params, exec, scratch.setup);
+    bin_records(scratch.setup, region, layer_tile_side, exec, scratch.bins);
+    const TileBins& bins = scratch.bins;
+    std::vector<TileLayers> tiles(bins.tiles());
     parallel_for(tiles.size(), exec, [&](std::size_t i) {
-        const int column = static_cast<int>(i) % scratch.bins.columns,
-                  row = static_cast<int>(i) / scratch.bins.columns;
-        const TileRect tile{column * layer_tile_side, row * layer_tile_side, layer_tile_side,
-                            layer_tile_side};
-        if (tile.x0 >= region.x0 + region.width || tile.x0 + tile.width <= region.x0 ||
-            tile.y0 >= region.y0 + region.height || tile.y0 + tile.height <= region.y0) {
-            return;
-        }
-        tiles[i] = layers_of_tile(scratch, scratch.bins.list(column, row), tile, exec.isa);
+        tiles[i] = layers_of_tile(scratch, bins.list(i), bins.rect(i), exec.isa);
     });
 
     // From tiles to rows of the region.
     Layers layers;
     layers.region = region;
     layers.first.push_back(0);
-    for (int y = region.y0; y < region.y0 + region.height; ++y) {
-        for (int x = region.x0; x < region.x0 + region.width; ++x) {
-            const TileLayers& tile = tiles[static_cast<std::size_t>(y / layer_tile_side) *
-                                               static_cast<std::size_t>(scratch.bins.columns) +
-                                           static_cast<std::size_t>(x / layer_tile_side)];
+    for (int y = 0; y < region.height; ++y) {
+        for (int x = 0; x < region.width; ++x) {
+            const TileLayers& tile = tiles[bins.index(x / layer_tile_side, y / layer_tile_side)];
             const auto texel =
                 static_cast<std::size_t>((y % layer_tile_side) * layer_tile_side + x % layer_tile_side);
             const LayerCrossing* all = tile.crossings.data();
             layers.crossings.insert(layers.crossings.end(), all + tile.first[texel],
                                     all + tile.first[texel + 1]);
-            layers.first.push_back(static_cast<std::uint32_t>(layers.crossings.size()));
+            layers.first.push_back(layers.crossings.size());
         }
     }
     return layers;

@@ -12,15 +12,10 @@
 
 namespace obscura {
 
-/// Texels [x0, x0 + width) x [y0, y0 + height) of a view.
-struct Region {
-    int x0 = 0, y0 = 0, width = 0, height = 0;
-};
-
 /// Crossings per texel of a region, each list in the order of comes_before().
 struct Layers {
     Region region;
-    std::vector<std::uint32_t> first;  ///< width * height + 1 offsets into `crossings`
+    std::vector<std::size_t> first;  ///< width * height + 1 offsets into `crossings`
     std::vector<LayerCrossing> crossings;
 
     /// x, y in the view's texels.
@@ -31,7 +26,8 @@ struct Layers {
     }
 };
 
-/// Every crossing of every texel of `region`, which must lie inside the view. No cap on their number.
+/// Every crossing of every texel of `region`, which must lie inside the view. No cap on their number; memory
+/// follows the region, not the view.
 Layers layers_of(const Mesh& mesh, const LightView& view, const Region& region, const Exec& exec);
 
 }  // namespace obscura

@@ -157,7 +157,13 @@ class BlockSetup {
           view_(view),
           params_(params),
           setup_(setup),
-          only_casters_(params.only_casters && !mesh.objects.empty()) {}
+          only_casters_(params.only_casters && !mesh.objects.empty()) {
+        const Region region = params.region.empty() ? Region{0, 0, view.width, view.height} : params.region;
+        x_begin_ = region.x0 * subtexel_one;
+        y_begin_ = region.y0 * subtexel_one;
+        x_end_ = (region.x0 + region.width) * subtexel_one;
+        y_end_ = (region.y0 + region.height) * subtexel_one;
+    }
 
     void run(std::size_t begin, std::size_t end, RecordBlock& block) {
         out_ = begin_ = setup_.records.data() + block.begin;
@@ -181,10 +187,7 @@ class BlockSetup {
         const auto [x_low, x_high] = std::minmax({p.x, q.x, r.x});
         const auto [y_low, y_high] = std::minmax({p.y, q.y, r.y});
         // What reaches no sample gives no record.
-        if (x_high < 0 || y_high < 0 || x_low >= view_.width * subtexel_one ||
-            y_low >= view_.height * subtexel_one) {
-            return;
-        }
+        if (x_high < x_begin_ || y_high < y_begin_ || x_low >= x_end_ || y_low >= y_end_) return;
         if (params_.centre_samples_only &&
             (between_centres(x_low, x_high) || between_centres(y_low, y_high))) {
             return;
@@ -269,7 +272,8 @@ class BlockSetup {
     const View& view_;
     const SetupParams& params_;
     TriangleSetup& setup_;
-    bool only_casters_;  ///< a mesh without named objects casts as a whole
+    std::int32_t x_begin_, y_begin_, x_end_, y_end_;  ///< the region, fixed point
+    bool only_casters_;                               ///< a mesh without named objects casts as a whole
     TriangleRecord *begin_ = nullptr, *out_ = nullptr;
     const TriangleRecord* paired_with_ = nullptr;  ///< second half of the last pair
 };
@@ -332,6 +336,10 @@ void setup_triangles(const Mesh& mesh, const View& view, const SetupParams& para
           "setup_triangles needs a mesh with topology");
     CHECK(mesh.objects.empty() || mesh.object.size() == mesh.triangles.size(),
           "every triangle needs its object");
+    const Region& region = params.region;
+    CHECK(region.empty() || (region.x0 >= 0 && region.y0 >= 0 && region.width <= view.width - region.x0 &&
+                             region.height <= view.height - region.y0),
+          "the region must lie inside the view");
     CHECK(view.width <= (1 << 20) && view.height <= (1 << 20));
     setup.blocks.clear();
     if (mesh.triangles.empty()) return;

@@ -28,7 +28,7 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
     params.only_casters = true;
     params.pair_faces = true;
     setup_triangles(mesh, view, params, exec, scratch.setup);
-    bin_records(scratch.setup, view.width, view.height, layer_tile_side, exec, scratch.bins);
+    bin_records(scratch.setup, region_of(view, {}), layer_tile_side, exec, scratch.bins);
     stored.size = view.width;
     stored.depth.reset(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
     const TileBins& bins = scratch.bins;

@@ -197,7 +197,7 @@ OBSCURA_INLINE void walk_box(const TriangleRecord* pair, const TileRect& tile, c
 template <int N, class Consumer>
 OBSCURA_INLINE void walk_outline(const TriangleRecord* pair, const TileRect& tile, Consumer& consumer) {
     const SampleBox box = sample_box<N>(pair, tile);
-    if (box.empty()) return;
+    if (box.empty() || consumer.hidden(pair[0], box)) return;
     const std::int32_t column = box.c0 & ~15;
     if (!box.small || box.c1 - column >= lanes) {
         walk_box<N>(pair, tile, box, consumer);
@@ -215,7 +215,8 @@ OBSCURA_INLINE void walk_outline(const TriangleRecord* pair, const TileRect& til
 
 /// Feeds every covered sample of `tile` to the consumer, in rows of sixteen texels:
 /// consumer.covered(offset, depth) or consumer.partial(offset, mask, depth); offset = row * width + column.
-/// partial() may be called with an empty mask.
+/// partial() may be called with an empty mask. consumer.hidden(record, box) may reject a triangle before
+/// that.
 template <class Consumer>
 OBSCURA_INLINE void walk_triangle(const TriangleRecord& t, const TileRect& tile, Consumer& consumer) {
     if (t.paired) {

@@ -275,6 +275,55 @@ TEST(Intervals, DoNotDependOnTheTile) {
     }
 }
 
+TEST(Region, IsTheSamePartOfTheWholeMap) {
+    const Mesh mesh = solids::random_solids(36, 60, true, false);
+    const LightView view = view_of(mesh, {-0.4, -1, 0.3}, 400);
+    const Image<DepthInterval> whole = intervals(mesh, view, Receivers::any, best_isa(), 2);
+    const Image<float> whole_depth = depth_map(mesh, view, Exec{});
+    for (const Region& region : {Region{0, 0, 400, 400}, Region{37, 201, 150, 99}, Region{399, 0, 1, 400}}) {
+        const Image<DepthInterval> part = interval_map(mesh, view, {Receivers::any, true, region}, Exec{});
+        RasterScratch scratch;
+        Image<float> part_depth(region.width, region.height);
+        SetupParams params;
+        params.region = region;
+        depth_map(mesh, view, params, Exec{}, scratch, part_depth.view());
+        for (int y = 0; y < region.height; ++y) {
+            for (int x = 0; x < region.width; ++x) {
+                ASSERT_EQ(part(x, y), whole(region.x0 + x, region.y0 + y));
+                ASSERT_EQ(part_depth(x, y), whole_depth(region.x0 + x, region.y0 + y));
+            }
+        }
+    }
+}
+
+TEST(Region, OfTheLargestViewCostsOnlyItself) {
+    // 2^20 x 2^20 texels: a dense map would take 8 TiB. The region's work follows the region.
+    const Mesh mesh = solids::random_solids(37, 60, true, true);
+    const LightView view = view_of(mesh, {-0.4, -1, 0.3}, 1 << 20);
+    const std::vector<TriangleRecord> records = records_of(mesh, view);
+    std::mt19937 rng(2);
+    int covered = 0;
+    for (int round = 0; round < 12; ++round) {
+        const Region region{static_cast<int>(400000 + rng() % 250000),
+                            static_cast<int>(400000 + rng() % 250000), 96, 70};
+        RasterScratch scratch;
+        Image<DepthInterval> map(region.width, region.height);
+        interval_map(mesh, view, {Receivers::any, true, region}, Exec{best_isa(), 2}, scratch, map.view());
+        ASSERT_EQ(scratch.bins.tiles(), 4u);
+        ASSERT_LE(scratch.bins.items.size(), 4 * records.size());
+        const Layers layers = layers_of(mesh, view, region, Exec{});
+        for (int y = 0; y < region.height; ++y) {
+            for (int x = 0; x < region.width; x += 7) {
+                const auto expected = oracle::hits_at(records, region.x0 + x, region.y0 + y);
+                ASSERT_EQ(map(x, y), oracle::interval(expected, false));
+                ASSERT_EQ(layers.at(region.x0 + x, region.y0 + y).size(), expected.size());
+                covered += !expected.empty();
+            }
+        }
+    }
+    EXPECT_GT(covered, 1000);
+}
+
 TEST(DepthMap, IsTheFirstLayer) {
     const Mesh mesh = solids::random_solids(35, 60, true, true);
     const LightView view = view_of(mesh, {-0.4, -1, 0.3}, 230);

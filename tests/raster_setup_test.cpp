@@ -154,7 +154,7 @@ TEST(Bin, EveryTileListsWhatTouchesItsSamples) {
     setup_triangles(mesh, view, {}, {}, setup);
     for (const int tile : {16, 32, 64}) {
         TileBins bins;
-        bin_records(setup, 300, 300, tile, {best_isa(), 3}, bins);
+        bin_records(setup, {0, 0, 300, 300}, tile, {best_isa(), 3}, bins);
         for (int y = 0; y < 300; ++y) {
             for (int x = 0; x < 300; ++x) {
                 const auto list = bins.list(x / tile, y / tile);
