@@ -52,7 +52,8 @@ void write_channels(const TileScene& scene, const TileRect& tile, int first_row,
                 }
                 if (wanted.normal && covered) frame.normal(px, py) = {s.nx[at], s.ny[at], s.nz[at]};
                 if (wanted.object) {
-                    frame.object(px, py) = covered ? scene.mesh->object[s.triangle[at]] : no_object;
+                    const auto& object = scene.mesh->object;
+                    frame.object(px, py) = covered && !object.empty() ? object[s.triangle[at]] : no_object;
                 }
             }
             if (wanted.albedo && covered) {

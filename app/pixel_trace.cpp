@@ -75,7 +75,8 @@ void PixelStory::tell_barycentrics(std::uint32_t triangle, Vec3f position) {
 void PixelStory::tell_surface(int at) {
     const SurfaceBlock& s = work_->surface;
     const Mesh& mesh = scene_.mesh;
-    const std::uint32_t t = s.triangle[at], object = mesh.object[t], component = mesh.component[t];
+    const std::uint32_t t = s.triangle[at], component = mesh.component[t],
+                        object = mesh.object.empty() ? no_object : mesh.object[t];
     const std::string name = object < mesh.objects.size() ? mesh.objects[object].name : std::string();
     say("    triangle {} of object {} \"{}\", component {} ({}), face {}", t, object, name, component,
         mesh.components[component].closed ? "closed" : "open", mesh.face[t]);
@@ -126,7 +127,9 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
         const Layers layers = layers_of(scene_.mesh, view, {own.x, own.y, 1, 1}, exec_);
         std::vector<LayerCrossing> crossings;
         for (const LayerCrossing& c : layers.at(own.x, own.y)) {
-            if (scene_.mesh.objects[scene_.mesh.object[c.triangle]].casts_shadow) crossings.push_back(c);
+            const Mesh& mesh = scene_.mesh;
+            if (mesh.objects.empty() || mesh.objects[mesh.object[c.triangle]].casts_shadow)
+                crossings.push_back(c);
         }
         const DepthInterval interval =
             interval_of(crossings, scene_.lights[light.scene_light].shadow.receivers);

@@ -35,6 +35,7 @@ CameraRays camera_rays(const Camera& camera, int width, int height) {
         set(rays.origin_y, y);
         set(rays.origin0, x * (-0.5 * width) + y * (-0.5 * height));
         rays.z_scale = static_cast<float>(orthographic_camera_range_m);
+        rays.z_near = static_cast<float>(camera.near_m);
     }
     return rays;
 }

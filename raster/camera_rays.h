@@ -13,8 +13,8 @@ struct CameraRays {
     double dir0[3], dir_x[3], dir_y[3];
     double origin0[3], origin_x[3], origin_y[3];
     double eye[3];     ///< world position that positions are relative to
-    bool perspective;  ///< depth Z of the camera's View: z = z_scale / Z (perspective) or z = z_scale Z
-    float z_scale;
+    bool perspective;  ///< depth Z of the camera's View: z = z_scale / Z, or else z = z_scale Z + z_near
+    float z_scale, z_near;
 };
 
 /// The rays of camera_view(camera, width, height).
@@ -22,7 +22,7 @@ CameraRays camera_rays(const Camera& camera, int width, int height);
 
 /// Distance along the view axis, metres, from the depth that the view stores.
 inline float view_distance(const CameraRays& rays, float depth) {
-    return rays.perspective ? rays.z_scale / depth : rays.z_scale * depth;
+    return rays.perspective ? rays.z_scale / depth : rays.z_scale * depth + rays.z_near;
 }
 
 }  // namespace obscura

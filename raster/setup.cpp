@@ -144,7 +144,7 @@ struct SnappedVertex {
     std::int32_t x, y;
 };
 
-/// First and last texel whose centre lies in [low, high], fixed point.
+/// Whether no texel centre lies in [low, high], fixed point.
 bool between_centres(std::int32_t low, std::int32_t high) {
     return ((low - 128 + 255) >> subtexel_bits) > ((high - 128) >> subtexel_bits);
 }

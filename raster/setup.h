@@ -47,7 +47,7 @@ struct TriangleSetup {
     // Stages before the records, kept for reuse and for lessons.
     Buffer<MapVertex> vertices;                ///< per mesh vertex
     Buffer<DepthPlane> planes;                 ///< per planar face
-    Buffer<std::int32_t> face_low, face_high;  ///< depth range of a face, as ordered integers
+    Buffer<std::int32_t> face_low, face_high;  ///< depth range per scattered face, ordered integers
 };
 
 /// Fills `setup` with every triangle of `mesh` that `view` can see. The mesh needs its topology

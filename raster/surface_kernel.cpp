@@ -161,7 +161,8 @@ void surface_group(const SurfaceMesh& mesh, const CameraRays& rays, const BlockR
     block.covered[group] = covered;
 
     const F32 depth = load(block.depth + at);
-    const F32 z = rays.perspective ? splat(rays.z_scale) / depth : splat(rays.z_scale) * depth;
+    const F32 z =
+        rays.perspective ? splat(rays.z_scale) / depth : splat(rays.z_scale) * depth + splat(rays.z_near);
     store3(block.px + at, block.py + at, block.pz + at, ray.origin + ray.dir * select(here, z, splat(1.0f)));
 
     if (covered == 0) {

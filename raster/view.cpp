@@ -146,9 +146,10 @@ View camera_view(const Camera& camera, int width, int height) {
     y.w += 0.5 * height;
     set_row(view.to_map, 0, x);
     set_row(view.to_map, 1, y);
-    // An orthographic camera sees everything ahead of its eye: depth in units of a range that holds any
-    // scene.
-    set_row(view.to_map, 2, frame.row(frame.basis.forward, 1.0 / orthographic_camera_range_m));
+    // Everything beyond the near plane, which is Z = 0: depth in units of a range that holds any scene.
+    Vec4d z = frame.row(frame.basis.forward, 1.0 / orthographic_camera_range_m);
+    z.w -= camera.near_m / orthographic_camera_range_m;
+    set_row(view.to_map, 2, z);
     return view;
 }
 

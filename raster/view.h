@@ -29,10 +29,11 @@ std::vector<LightView> cube_light_views(Vec3d position, double near_m, double fa
 /// Which of the six faces sees direction d.
 int cube_face(Vec3f d);
 
-/// Depth range of orthographic cameras, from the eye: far beyond any scene; floats stay dense near the eye.
+/// Depth range of orthographic cameras, from the near plane: far beyond any scene; floats stay dense there.
 constexpr double orthographic_camera_range_m = 1e6;
 
-/// The camera's view of a width x height picture (Z = -near/z for perspective).
+/// The camera's view of a width x height picture (Z = -near/z for perspective, else (z - near)
+/// / orthographic_camera_range_m): nothing nearer than camera.near_m is in it.
 View camera_view(const Camera& camera, int width, int height);
 
 /// Orthonormal right, up, forward; `up` may not be parallel to `forward` (another up is then chosen).

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <random>
 
 #include "raster/bin.h"
@@ -143,6 +145,38 @@ TEST(Setup, TrianglesOfOnePlanarFaceShareOnePlane) {
                                     records[i].c == records[j].c && records[i].zmin == records[j].zmin &&
                                     records[i].zmax == records[j].zmax;
             EXPECT_EQ(same_face, same_plane);
+        }
+    }
+}
+
+TEST(Setup, PlanesDoNotDependOnTheOrderOfTriangles) {
+    // In order, the triangles of a face stand one after the other; shuffled, they do not: two ways to gather
+    // a face's range of depth.
+    const Mesh mesh = solids::random_solids(7, 60, true, true);
+    ASSERT_TRUE(std::is_sorted(mesh.face.begin(), mesh.face.end()));
+    std::vector<std::size_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::shuffle(order.begin(), order.end(), std::mt19937(3));
+    Mesh shuffled = mesh;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        shuffled.triangles[i] = mesh.triangles[order[i]];
+        shuffled.component[i] = mesh.component[order[i]];
+        shuffled.face[i] = mesh.face[order[i]];
+    }
+    ASSERT_FALSE(std::is_sorted(shuffled.face.begin(), shuffled.face.end()));
+
+    Camera inside;  // some vertices lie before the near plane
+    inside.eye = {0.1, 0.05, 0.2};
+    inside.look_at = {0, 0, -1};
+    for (const View& view :
+         {camera_view(inside, 320, 200), orthographic_light_view(bounds_of(mesh), {0.3, -0.9, 0.1}, 512)}) {
+        TriangleSetup runs, scattered;
+        setup_triangles(mesh, view, {}, {Isa::ref, 1}, runs);
+        setup_triangles(shuffled, view, {}, {best_isa(), 3}, scattered);
+        ASSERT_EQ(runs.planes.size(), scattered.planes.size());
+        for (std::size_t f = 0; f < runs.planes.size(); ++f) {
+            const DepthPlane &p = runs.planes[f], &q = scattered.planes[f];
+            ASSERT_TRUE(p.a == q.a && p.b == q.b && p.c == q.c && p.zmin == q.zmin && p.zmax == q.zmax) << f;
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 
@@ -76,6 +77,47 @@ int for_each_covered(const Scene& scene, Check&& check) {
         }
     }
     return count;
+}
+
+TEST(Orthographic, NothingNearerThanTheNearPlaneIsSeen) {
+    // Sheets 2 m and 5 m below a camera that looks straight down from 10 m.
+    Scene scene = empty_scene(64, 64);
+    add(scene, plane(20, 20), 0, {0, 5, 0});
+    add(scene, plane(1, 1), 0, {0, 8, 0});
+    scene.camera.kind = CameraKind::orthographic;
+    scene.camera.height_m = 4;
+    scene.camera.eye = {0, 10, 0};
+    scene.camera.look_at = {0, 0, 0};
+    const auto depth_at_centre = [&](double near_m) {
+        scene.camera.near_m = near_m;
+        return render_frame(scene, all_channels()).depth_m(32, 32);
+    };
+    EXPECT_NEAR(depth_at_centre(0.05), 2, 1e-6);
+    EXPECT_NEAR(depth_at_centre(1.999), 2, 1e-6);
+    EXPECT_NEAR(depth_at_centre(2.001), 5, 1e-6);
+    EXPECT_NEAR(depth_at_centre(4.5), 5, 1e-6);
+    EXPECT_EQ(depth_at_centre(5.5), std::numeric_limits<float>::infinity());
+
+    // A slanted sheet through the near plane is cut where the plane is.
+    Scene slanted = textured_floor();
+    slanted.camera.kind = CameraKind::orthographic;
+    slanted.camera.height_m = 7;
+    slanted.camera.near_m = 9;
+    int seen = 0;
+    const Frame frame = render_frame(slanted, all_channels());
+    for (const float depth : frame.depth_m.pixels) {
+        EXPECT_GE(depth, 8.99f);
+        seen += depth < 9.5f;
+    }
+    EXPECT_GT(seen, 100);
+}
+
+TEST(Channels, AMeshWithoutObjectsShowsNone) {
+    Scene scene = textured_floor();
+    scene.mesh.object.clear();
+    scene.mesh.objects.clear();
+    for (const std::uint32_t object : render_frame(scene, all_channels()).object.pixels)
+        ASSERT_EQ(object, no_object);
 }
 
 class Floor : public testing::TestWithParam<bool> {};
