@@ -79,6 +79,8 @@ void print(const Comparable& both, const ImageDifference& d, double threshold) {
     fmt::print("differ  {} pixels above {:g} ({:.4f} %)", d.pixels_over, threshold,
                100.0 * static_cast<double>(d.pixels_over) / pixels);
     if (d.first_x >= 0) fmt::print(", first at {},{}", d.first_x, d.first_y);
+    if (d.not_finite > 0)
+        fmt::print("\ninf     {} values are not finite: mean, psnr and ssim leave them out", d.not_finite);
     fmt::print("\n");
 }
 

@@ -22,10 +22,14 @@ void check_same_shape(const Planes& a, const Planes& b) {
     }
 }
 
+bool both_finite(float a, float b) {
+    return std::isfinite(a) && std::isfinite(b);
+}
+
 double difference(float a, float b) {
     if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
     const double d = std::fabs(static_cast<double>(a) - static_cast<double>(b));
-    return std::isfinite(d) ? d : inf;
+    return std::isnan(d) ? inf : d;
 }
 
 /// Largest difference among the channels of a pixel.
@@ -40,7 +44,7 @@ double pixel_difference(const Planes& a, const Planes& b, int x, int y) {
 struct RowSums {
     double largest = 0, sum = 0, squares = 0;
     int largest_x = 0, first_x = -1;
-    std::int64_t over = 0;
+    std::int64_t over = 0, not_finite = 0;
 };
 
 RowSums compare_row(const Planes& a, const Planes& b, int y, double threshold) {
@@ -50,6 +54,10 @@ RowSums compare_row(const Planes& a, const Planes& b, int y, double threshold) {
         for (std::size_t c = 0; c < a.size(); ++c) {
             const double d = difference(a[c](x, y), b[c](x, y));
             largest = std::max(largest, d);
+            if (!both_finite(a[c](x, y), b[c](x, y))) {
+                ++row.not_finite;
+                continue;
+            }
             row.sum += d;
             row.squares += d * d;
         }
@@ -104,6 +112,15 @@ void horizontal_moments(const float* a, const float* b, const std::vector<double
         }
         out[x] = m;
     }
+}
+
+bool equal_values(const Image<float>& a, const Image<float>& b) {
+    return std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(),
+                      [](float p, float q) { return difference(p, q) == 0; });
+}
+
+bool is_finite(const Moments& m) {
+    return std::all_of(m.begin(), m.end(), [](double v) { return std::isfinite(v); });
 }
 
 /// Equation 13 of the paper.
@@ -177,6 +194,7 @@ ImageDifference compare_images(const Planes& a, const Planes& b, const ComparePa
         sum += row.sum;
         squares += row.squares;
         result.pixels_over += row.over;
+        result.not_finite += row.not_finite;
         if (row.largest > result.max_error) {
             result.max_error = row.largest;
             result.max_x = row.largest_x;
@@ -187,9 +205,10 @@ ImageDifference compare_images(const Planes& a, const Planes& b, const ComparePa
             result.first_y = y;
         }
     }
-    const double values = static_cast<double>(a.size()) * static_cast<double>(a[0].pixels.size());
-    result.mean_error = sum / values;
-    const double mean_square = squares / values;
+    const auto values = static_cast<std::int64_t>(a.size() * a[0].pixels.size());
+    const auto finite = static_cast<double>(std::max<std::int64_t>(values - result.not_finite, 1));
+    result.mean_error = sum / finite;
+    const double mean_square = squares / finite;
     result.psnr_db = mean_square > 0 ? (num::log2(params.peak * params.peak) - num::log2(mean_square)) *
                                            (10.0 / num::log2(10.0))
                                      : inf;
@@ -209,6 +228,7 @@ double structural_similarity(const Image<float>& a, const Image<float>& b, doubl
 
     // The window is separable: blocks of rows keep the sums along them, then add downwards.
     std::vector<double> row_sum(rows, 0.0);
+    std::vector<std::int64_t> row_windows(rows, 0);
     parallel_blocks(rows, 32, exec, [&](std::size_t begin, std::size_t end) {
         std::vector<std::vector<Moments>> along(end - begin + down.size() - 1, std::vector<Moments>(columns));
         for (std::size_t i = 0; i < along.size(); ++i) {
@@ -222,14 +242,21 @@ double structural_similarity(const Image<float>& a, const Image<float>& b, doubl
                     for (std::size_t k = 0; k < m.size(); ++k)
                         m[k] += down[i] * along[y - begin + i][x][k];
                 }
+                // Every weight is positive: one infinity or NaN in the window shows in a moment.
+                if (!is_finite(m)) continue;
                 row_sum[y] += ssim_index(m, peak);
+                ++row_windows[y];
             }
         }
     });
     double sum = 0;
-    for (const double s : row_sum)
-        sum += s;
-    return sum / (static_cast<double>(rows) * static_cast<double>(columns));
+    std::int64_t windows = 0;
+    for (std::size_t y = 0; y < rows; ++y) {
+        sum += row_sum[y];
+        windows += row_windows[y];
+    }
+    if (windows == 0) return equal_values(a, b) ? 1 : 0;
+    return sum / static_cast<double>(windows);
 }
 
 Image<Rgb8> difference_picture(const Planes& a, const Planes& b, double full_scale) {

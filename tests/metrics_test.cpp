@@ -135,6 +135,46 @@ TEST(Metrics, NonFiniteValuesDifferUnlessTheyAreTheSame) {
     EXPECT_EQ(value_range({Image<float>(1, 1, inf), Image<float>(1, 1, 2.0f), Image<float>(1, 1, -3.0f)}), 5);
 }
 
+TEST(Metrics, MeansAndSsimLeaveOutWhatIsNotFinite) {
+    // Two depth pictures whose left third is sky, one of which lost a pixel to it.
+    Image<float> depth = noise(60, 40, 5);
+    for (int y = 0; y < 40; ++y)
+        std::fill_n(depth.row(y), 20, inf);
+    const Planes a{depth};
+    ImageDifference d = compare_images(a, a, {}, one);
+    EXPECT_EQ(d.max_error, 0);
+    EXPECT_EQ(d.psnr_db, inf);
+    EXPECT_NEAR(d.ssim, 1, 1e-12);
+    EXPECT_EQ(d.not_finite, 20 * 40);
+
+    Planes b = a;
+    b[0](55, 35) += 6;
+    d = compare_images(a, b, {}, one);
+    EXPECT_NEAR(d.mean_error, 6.0 / (40 * 40), 1e-9);
+    EXPECT_LT(d.ssim, 1);
+    EXPECT_GT(d.ssim, 0.9);
+    b[0](50, 5) = inf;
+    d = compare_images(a, b, {255, 1e30}, one);
+    EXPECT_EQ(d.max_error, inf);
+    EXPECT_EQ(d.max_x, 50);
+    EXPECT_EQ(d.pixels_over, 1);
+    EXPECT_NEAR(d.mean_error, 6.0 / (40 * 40 - 1), 1e-9);
+    EXPECT_TRUE(std::isfinite(d.ssim));
+
+    // The finite part alone says the same.
+    Image<float> right(40, 40), right_b(40, 40);
+    for (int y = 0; y < 40; ++y) {
+        std::copy_n(a[0].row(y) + 20, 40, right.row(y));
+        std::copy_n(b[0].row(y) + 20, 40, right_b.row(y));
+    }
+    EXPECT_EQ(compare_images({right}, {right_b}, {}, one).ssim, d.ssim);
+
+    const Planes sky{Image<float>(9, 9, inf)}, hole{Image<float>(9, 9, nan)};
+    EXPECT_EQ(compare_images(sky, sky, {}, one).ssim, 1);
+    EXPECT_EQ(compare_images(sky, hole, {}, one).ssim, 0);
+    EXPECT_EQ(compare_images(sky, hole, {}, one).mean_error, 0);
+}
+
 TEST(Metrics, ThreadsDoNotChangeABit) {
     const Planes a{noise(150, 333, 1), noise(150, 333, 2)}, b{noise(150, 333, 3), noise(150, 333, 4)};
     const ImageDifference d = compare_images(a, b, {255, 9}, one);
