@@ -119,8 +119,8 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
     say("      map {} of {}, {} x {}: texel ({:.4f}, {:.4f}), receiver depth {:.9g}", look.view,
         light.pcf->views, view.width, view.height, look.X, look.Y, look.depth);
     for (const ref::PcfTap& tap : look.taps) {
-        say("        tap ({}, {}) stored {:.9g} {}{}", tap.x, tap.y, tap.stored, tap.lit ? "lit" : "dark",
-            tap.inside ? "" : ", outside the map");
+        say("        tap ({}, {}) receiver {:.9g} stored {:.9g} {}{}", tap.x, tap.y, tap.receiver, tap.stored,
+            tap.lit ? "lit" : "dark", tap.inside ? "" : ", outside the map");
     }
     const ref::PcfTap& own = look.taps[look.taps.size() / 2];
     if (own.inside) {

@@ -8,7 +8,15 @@
 // which is the box of K - 1 texels that is centred on the receiver itself: visibility changes continuously as
 // the receiver moves, and shadow edges are ramps, not stairs.
 //
-// A receiver is lit by a texel when its depth <= the stored depth, and wherever the map does not reach.
+// A receiver is lit by a texel when its depth <= the stored depth, and wherever the map does not reach (the
+// six maps of a point light reach everywhere: there, taps are clamped into their map).
+//
+// "Its depth" at a texel is that of the receiver's own plane at the texel's centre, where the map sampled it,
+// but not more than the receiver's own (J. Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC
+// 2006, receiver plane depth). A planar face thus meets its own stored plane, which lies before the middle of
+// the solid however thin that is; with one depth for all texels, a slab thinner than texel x slope shades
+// itself. What stands before the plane still shades it. Never deeper than the receiver: behind a thin wall
+// that stands on lit ground the ground's plane goes on, and would find itself in the wall's shadow.
 
 #include <cstdint>
 
@@ -24,7 +32,13 @@ struct PcfView {
     bool perspective = false;
     double near_w = 0;    ///< perspective: receivers nearer than this are lit
     double offset_m = 0;  ///< normal offset of receivers on open components, at distance 1 if perspective
+    /// On a plane with normal n, with l to the light (unit, or from the receiver to its position):
+    /// dZ/dX = n . slope_x / n . l, and the same for Y.
+    float slope_x[3] = {0, 0, 0}, slope_y[3] = {0, 0, 0};
 };
+
+/// Planes that light grazes, at less than 0.9 degrees, are taken as if it were that: n . l / |l| is no less.
+constexpr float pcf_least_cosine = 1.0f / 64.0f;
 
 /// A light as its shadow lookups see it.
 struct PcfLight {

@@ -1,5 +1,6 @@
 // Percentage-closer filtering, one receiver and one texel at a time.
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/scalar_lanes.h"
@@ -16,6 +17,7 @@ struct Receiver {
     bool before_near = false;
     double X = 0, Y = 0;
     float depth = 0;
+    float slope_x = 0, slope_y = 0;  ///< of its plane: depth per texel
 };
 
 /// Which way the light is, not normalised.
@@ -24,25 +26,46 @@ Vec3f towards(const PcfLight& light, Vec3f p) {
     return Vec3f{light.position[0], light.position[1], light.position[2]} - p;
 }
 
-Receiver place(const PcfView& view, Vec3f p, Vec3f offset_way, bool open) {
-    double x = static_cast<double>(p.x), y = static_cast<double>(p.y), z = static_cast<double>(p.z);
-    const auto row = [&](const double(&m)[4]) { return (m[0] * x + m[1] * y) + (m[2] * z + m[3]); };
-    if (open) {
-        const double offset = view.perspective ? view.offset_m * row(view.to_map[3]) : view.offset_m;
-        x = x + static_cast<double>(offset_way.x) * offset;
-        y = y + static_cast<double>(offset_way.y) * offset;
-        z = z + static_cast<double>(offset_way.z) * offset;
-    }
+/// A receiver on its way to the map, relative to the eye; `n` turned to the light's side.
+struct Moved {
+    double x, y, z;
+    Vec3f n, to_light;
+    double row(const double (&m)[4]) const { return (m[0] * x + m[1] * y) + (m[2] * z + m[3]); }
+};
+
+/// Distance of p from the light along the axis of the map that sees it; 1 for parallel light.
+double axial_distance(const PcfLight& light, const Moved& p) {
+    if (light.views == 1) return light.view[0].perspective ? p.row(light.view[0].to_map[3]) : 1.0;
+    const Vec3f l = p.to_light;
+    return static_cast<double>(lane_max(lane_max(std::fabs(l.x), std::fabs(l.y)), std::fabs(l.z)));
+}
+
+Moved move(const PcfLight& light, Vec3f p, Vec3f n, Vec3f to_light, bool open) {
+    Moved m{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), n, to_light};
+    if (!open) return m;
+    const double offset = light.view[0].offset_m * axial_distance(light, m);
+    m.x = m.x + static_cast<double>(n.x) * offset;
+    m.y = m.y + static_cast<double>(n.y) * offset;
+    m.z = m.z + static_cast<double>(n.z) * offset;
+    m.to_light = towards(light, {static_cast<float>(m.x), static_cast<float>(m.y), static_cast<float>(m.z)});
+    return m;
+}
+
+Receiver place(const PcfView& view, const Moved& p) {
     Receiver r;
-    const double w = row(view.to_map[3]);
+    const double w = p.row(view.to_map[3]);
     const double inv = view.perspective ? 1.0 / w : 1.0;
     r.before_near = view.perspective && !(w >= view.near_w);
     // Far off the map any place will do, as long as its number fits an integer.
     const double low = -8.0, high = static_cast<double>(view.size) + 8.0;
-    r.X = lane_min(lane_max(row(view.to_map[0]) * inv, low), high);
-    r.Y = lane_min(lane_max(row(view.to_map[1]) * inv, low), high);
+    r.X = lane_min(lane_max(p.row(view.to_map[0]) * inv, low), high);
+    r.Y = lane_min(lane_max(p.row(view.to_map[1]) * inv, low), high);
     // Beyond the map's depth range there is only background, at depth 1.
-    r.depth = lane_min(static_cast<float>(row(view.to_map[2]) * inv), 1.0f);
+    r.depth = lane_min(static_cast<float>(p.row(view.to_map[2]) * inv), 1.0f);
+    const float least = pcf_least_cosine * std::sqrt(dot(p.to_light, p.to_light));
+    const float inv_nl = 1.0f / lane_max(dot(p.n, p.to_light), least);
+    r.slope_x = dot(p.n, Vec3f{view.slope_x[0], view.slope_x[1], view.slope_x[2]}) * inv_nl;
+    r.slope_y = dot(p.n, Vec3f{view.slope_y[0], view.slope_y[1], view.slope_y[2]}) * inv_nl;
     return r;
 }
 
@@ -58,7 +81,8 @@ std::int64_t block_index(std::int64_t x, std::int64_t y, std::int64_t size) {
     return ((y / 4) * (size / 4) + x / 4) * 16 + (y % 4) * 4 + x % 4;
 }
 
-/// Calls tap(x, y, weight_x, weight_y) for each texel of the kernel and returns the filtered visibility.
+/// Calls tap(x, y, depth, weight_x) for each texel of the kernel, with the depth of the receiver's plane at
+/// its centre, and returns the filtered visibility.
 template <class Tap>
 float filtered(const Receiver& r, int side, Tap&& tap) {
     // Place on a grid of 1/256 texel: the sums below are then exact, and full light is exactly 1.
@@ -67,13 +91,19 @@ float filtered(const Receiver& r, int side, Tap&& tap) {
     const std::int32_t ix = x256 >> 8, iy = y256 >> 8;
     const float fx = static_cast<float>(x256 & 255) * (1.0f / 256.0f);
     const float fy = static_cast<float>(y256 & 255) * (1.0f / 256.0f);
+    // From the receiver to the centre of its own texel, not rounded to the grid.
+    const float to_centre_x = static_cast<float>((static_cast<double>(ix) + 0.5) - r.X);
+    const float to_centre_y = static_cast<float>((static_cast<double>(iy) + 0.5) - r.Y);
     const int reach = side / 2;
     float sum = 0.0f;
     for (int j = 0; j < side; ++j) {
+        const float rise_y = r.slope_y * (to_centre_y + static_cast<float>(j - reach));
         float row = 0.0f;
         for (int i = 0; i < side; ++i) {
+            const float rise_x = r.slope_x * (to_centre_x + static_cast<float>(i - reach));
+            const float depth = r.depth + lane_min(rise_x + rise_y, 0.0f);
             const float weight = tap_weight(i, side, fx);
-            row = row + (tap(ix + i - reach, iy + j - reach, weight) ? weight : 0.0f);
+            row = row + (tap(ix + i - reach, iy + j - reach, depth, weight) ? weight : 0.0f);
         }
         sum = sum + row * tap_weight(j, side, fy);
     }
@@ -95,10 +125,10 @@ PcfTrace trace_pcf(const SurfaceBlock& s, const PcfLight& light, int at) {
     const float cosine = dot(g, l);
     if (!(0.0f < cosine) && (s.thin[group] & bit) == 0) return trace;
 
-    const Vec3f away = -l;
-    trace.view = light.views == 6 ? cube_face(away) : 0;
+    const Moved receiver = move(light, p, cosine < 0.0f ? -g : g, l, (s.open[group] & bit) != 0);
+    trace.view = light.views == 6 ? cube_face(-receiver.to_light) : 0;
     const PcfView& view = light.view[trace.view];
-    const Receiver r = place(view, p, cosine < 0.0f ? -g : g, (s.open[group] & bit) != 0);
+    const Receiver r = place(view, receiver);
     trace.X = r.X;
     trace.Y = r.Y;
     trace.depth = r.depth;
@@ -107,16 +137,22 @@ PcfTrace trace_pcf(const SurfaceBlock& s, const PcfLight& light, int at) {
         return trace;
     }
     trace.looked_up = true;
-    trace.visibility = filtered(r, light.side, [&](std::int32_t x, std::int32_t y, float weight) {
-        PcfTap tap{x, y, weight, false, 1.0f, true};
-        tap.inside = x >= 0 && y >= 0 && x < view.size && y < view.size;
-        if (tap.inside) {
-            tap.stored = view.stored[block_index(x, y, view.size)];
-            tap.lit = r.depth <= tap.stored;
-        }
-        trace.taps.push_back(tap);
-        return tap.lit;
-    });
+    const std::int32_t last = view.size - 1;
+    trace.visibility =
+        filtered(r, light.side, [&](std::int32_t x, std::int32_t y, float depth, float weight) {
+            PcfTap tap{x, y, weight, false, depth, 1.0f, true};
+            if (light.views == 6) {
+                tap.x = std::clamp(x, 0, last);
+                tap.y = std::clamp(y, 0, last);
+            }
+            tap.inside = tap.x >= 0 && tap.y >= 0 && tap.x <= last && tap.y <= last;
+            if (tap.inside) {
+                tap.stored = view.stored[block_index(tap.x, tap.y, view.size)];
+                tap.lit = depth <= tap.stored;
+            }
+            trace.taps.push_back(tap);
+            return tap.lit;
+        });
     return trace;
 }
 

@@ -3,6 +3,33 @@
 namespace obscura {
 namespace {
 
+void set(float (&to)[3], Vec3f v) {
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+Vec3d axis_of(const LightView& view, int row) {
+    const auto& m = view.to_map.m[row];
+    return {m[0], m[1], m[2]};
+}
+
+/// On the plane n . q = -n . l through the receiver, q from the light: with right / |right|^2 = R, forward F
+/// and tangents x = (X - cx) |right| ..., 1/w = (n . R (X - cx) + ... + n . F) / n . q is affine in X, and so
+/// is Z = k (1 - near / w). Parallel light: Z itself is, with n . F = -n . l below.
+void set_slopes(const LightView& view, PcfView& v) {
+    const double k = length(axis_of(view, 2));
+    const double scale = view.perspective ? k * view.near_w : k;
+    const Vec3d forward = axis_of(view, 2) * (1.0 / k);
+    const auto slope = [&](int row) {
+        Vec3d across = axis_of(view, row);
+        across = across - forward * dot(across, forward);
+        return to_float(across * (scale / dot(across, across)));
+    };
+    set(v.slope_x, slope(0));
+    set(v.slope_y, slope(1));
+}
+
 PcfView pcf_view(const LightView& view, const StoredDepths& stored, Vec3d eye, double offset_texels) {
     CHECK(view.width == view.height && stored.size == view.width);
     PcfView v{};
@@ -17,13 +44,8 @@ PcfView pcf_view(const LightView& view, const StoredDepths& stored, Vec3d eye, d
     v.perspective = view.perspective;
     v.near_w = view.near_w;
     v.offset_m = offset_texels * texel_size_m(view);
+    set_slopes(view, v);
     return v;
-}
-
-void set(float (&to)[3], Vec3f v) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
 }
 
 }  // namespace

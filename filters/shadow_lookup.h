@@ -19,6 +19,7 @@ struct PcfTap {
     std::int32_t x = 0, y = 0;
     float weight = 0;
     bool inside = false;  ///< of the map; outside counts as lit
+    float receiver = 0;   ///< depth of the receiver's plane there, at most that of the receiver
     float stored = 1;
     bool lit = true;
 };
