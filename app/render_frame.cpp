@@ -156,7 +156,6 @@ void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, Fram
     if (!cache.prepared) {
         const Stopwatch watch;
         surface_tables(scene.mesh, scene.materials, exec, cache.surface);
-        cache.solids = solids_of(scene.mesh);
         cache.bounds = bounds_of(scene.mesh);
         cache.prepared = true;
         stats.surface_s = watch.seconds();
@@ -191,8 +190,6 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
     t.pattern = sample_pattern(render.samples);
     SetupParams params;
     params.centre_samples_only = render.samples == 1;
-    if (sees_no_exits(cache.solids, scene.camera, render.width, render.height))
-        params.culling = Culling::exits;
     setup_triangles(scene.mesh, t.view, params, exec, cache.camera_scratch.setup);
     bin_records(cache.camera_scratch.setup, {0, 0, render.width, render.height}, frame_tile_side, exec,
                 cache.camera_scratch.bins);

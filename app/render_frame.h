@@ -8,7 +8,6 @@
 #include "core/isa.h"
 #include "core/scene.h"
 #include "raster/shadow_map.h"
-#include "raster/solids.h"
 #include "raster/surface.h"
 
 namespace obscura {
@@ -23,7 +22,6 @@ struct FrameCache {
     bool prepared = false;
     Bounds bounds;
     SurfaceTables surface;
-    Solids solids;
     std::vector<Shadow> shadows;  ///< of the lights with shadows, in scene order
     RasterScratch camera_scratch, light_scratch;
     void forget() { *this = FrameCache{}; }

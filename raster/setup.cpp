@@ -200,7 +200,6 @@ class BlockSetup {
         const bool front = area < 0;
         const bool closed = mesh_.components[mesh_.component[t]].closed;
         const Crossing crossing = !closed ? Crossing::open : (front ? Crossing::entry : Crossing::exit);
-        if (params_.culling == Culling::exits && crossing == Crossing::exit) return;
         if (params_.culling == Culling::back_faces && !front) return;
         if (front) std::swap(q, r);
 

@@ -13,10 +13,9 @@
 
 namespace obscura {
 
-/// Faces that are left out: none; those where a ray leaves a solid (back faces of closed components: the
-/// nearest surface is never one of them, unless a solid is cut open); or all that face away, of open
-/// components too.
-enum class Culling { none, exits, back_faces };
+/// Faces that are left out: none, or all that face away. Pictures leave out none: even of closed components a
+/// back may be the nearest surface, where a solid is cut open by the near plane or turns itself inside out.
+enum class Culling { none, back_faces };
 
 /// Which triangles become records.
 struct SetupParams {

@@ -127,7 +127,6 @@ TEST(Setup, CullingDropsWhatItSays) {
     const LightView view = orthographic_light_view(bounds_of(mesh), normalize(Vec3d{0.3, -1, 0.2}), 256);
     const auto count = [&](Culling culling) { return records_of(mesh, view, {false, culling, true}).size(); };
     EXPECT_EQ(count(Culling::none), 12u + 2 + 2);
-    EXPECT_EQ(count(Culling::exits), 6u + 2 + 2);
     EXPECT_EQ(count(Culling::back_faces), 6u + 2);
     mesh.objects[mesh.object.front()].casts_shadow = false;
     EXPECT_EQ(records_of(mesh, view, {true, Culling::none, true}).size(), 4u);

@@ -112,6 +112,23 @@ TEST(Orthographic, NothingNearerThanTheNearPlaneIsSeen) {
     EXPECT_GT(seen, 100);
 }
 
+TEST(Visibility, BacksOfASolidThatTurnsInsideOutAreSeen) {
+    // A beam along +Z whose width falls from 2 m through 0 to -0.6 m: closed, of positive volume, and inside
+    // out at its far end.
+    Mesh beam = box({2, 2, 3});
+    for (Vec3f& p : beam.positions) {
+        if (p.z > 0) p.x *= -0.3f;
+    }
+    Scene scene = empty_scene(64, 64);
+    add(scene, beam, 0, {0, 0, 1.5f});
+    ASSERT_EQ(scene.mesh.components.size(), 1u);
+    ASSERT_TRUE(scene.mesh.components[0].closed);
+    ASSERT_GT(signed_volumes(scene.mesh)[0], 0);
+    scene.camera.eye = {5, 0, 2.9};
+    scene.camera.look_at = {0, 0, 2.9};
+    EXPECT_NEAR(render_frame(scene, all_channels()).depth_m(32, 32), 5 - 1.3 * 2.9 / 3 + 1, 0.02);
+}
+
 TEST(Channels, AMeshWithoutObjectsShowsNone) {
     Scene scene = textured_floor();
     scene.mesh.object.clear();
