@@ -34,7 +34,7 @@ struct FrameStats {
     std::int64_t covered_samples = 0;  ///< of these, on a surface
     std::int64_t shadow_maps = 0;      ///< views rendered for this frame, not kept ones
     std::int64_t shadow_bytes = 0;     ///< all maps
-    std::int64_t bytes = 0;            ///< bound checked before the work: maps, buffers, channels
+    std::int64_t bytes = 0;            ///< estimate_memory(), checked before the work
 };
 
 constexpr std::uint32_t no_object = 0xffffffffu;

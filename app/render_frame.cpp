@@ -6,6 +6,7 @@
 #include <chrono>
 #include <mutex>
 
+#include "app/scene_build.h"
 #include "core/parallel.h"
 #include "filters/shadow_lookup.h"
 #include "raster/lighting.h"
@@ -34,16 +35,6 @@ bool same_map(const Light& a, const Light& b) {
            a.shadow.resolution == b.shadow.resolution && a.shadow.receivers == b.shadow.receivers;
 }
 
-/// Every mesh vertex, triangle and face takes part in a view's setup; a triangle lies in few tiles.
-std::int64_t scratch_bytes(const Mesh& mesh) {
-    const auto vertices = static_cast<std::int64_t>(mesh.positions.size());
-    const auto triangles = static_cast<std::int64_t>(mesh.triangles.size());
-    const auto faces = static_cast<std::int64_t>(mesh.faces.size());
-    return vertices * static_cast<std::int64_t>(sizeof(MapVertex)) +
-           triangles * static_cast<std::int64_t>(sizeof(TriangleRecord) + 4 * sizeof(std::uint32_t)) +
-           faces * static_cast<std::int64_t>(sizeof(DepthPlane) + 2 * sizeof(std::int32_t));
-}
-
 Region crop_of(const RenderSettings& render, const FrameOptions& options) {
     const Region& c = options.crop;
     if (c.width <= 0 || c.height <= 0) return {0, 0, render.width, render.height};
@@ -70,18 +61,6 @@ void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
     set_channel(frame.albedo, options.albedo, frame);
     set_channel(frame.object, options.object, frame);
     set_channel(frame.shadow, options.shadow, frame);
-}
-
-void check_memory(const Scene& scene, const FrameOptions& options, FrameStats& stats) {
-    stats.bytes = frame_bytes(scene, options);
-    const std::int64_t mib = (stats.bytes + (1 << 20) - 1) >> 20;
-    if (mib > scene.limits.memory_mib) {
-        throw LimitError(
-            fmt::format("the frame would take {} MiB, the limit is {} MiB: lower the resolution "
-                        "of shadow maps or the size of the picture, or raise memory_mib in "
-                        "[limits]",
-                        mib, scene.limits.memory_mib));
-    }
 }
 
 /// Tells `progress` about once per half percent, one call at a time.
@@ -131,26 +110,6 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
 }
 
 }  // namespace
-
-std::int64_t frame_bytes(const Scene& scene, const FrameOptions& options) {
-    const Region crop = crop_of(scene.render, options);
-    std::int64_t pixel = sizeof(Vec3f);
-    pixel += options.depth ? 4 : 0;
-    pixel += options.normal ? 12 : 0;
-    pixel += options.albedo ? 12 : 0;
-    pixel += options.object ? 4 : 0;
-    pixel += options.shadow ? 4 : 0;
-    std::int64_t bytes = pixel * crop.width * crop.height;
-    bytes += static_cast<std::int64_t>(scene.mesh.triangles.size() * sizeof(SurfaceTriangle) +
-                                       scene.mesh.positions.size() * sizeof(SurfaceVertex));
-    bool shadows = false;
-    for (const Light& light : scene.lights) {
-        if (!casts_shadows(light)) continue;
-        bytes += dense_map_bytes(light);
-        shadows = true;
-    }
-    return bytes + (shadows ? 2 : 1) * scratch_bytes(scene.mesh);
-}
 
 void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats) {
     if (!cache.prepared) {
@@ -221,7 +180,9 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     const Stopwatch total;
     frame.stats = FrameStats{};
     frame.stats.triangles = static_cast<std::int64_t>(scene.mesh.triangles.size());
-    check_memory(scene, options, frame.stats);
+    const MemoryEstimate memory = estimate_memory(scene);
+    frame.stats.bytes = memory.total();
+    check_memory(memory, scene.limits, "the frame");
     prepare_scene(scene, exec, cache, frame.stats);
 
     const Stopwatch setup;

@@ -35,9 +35,6 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
 /// The same, nothing kept.
 Frame render_frame(const Scene& scene, const FrameOptions& options = {}, const Exec& exec = {});
 
-/// Bound of the memory that render_frame() will hold besides the scene itself, bytes.
-std::int64_t frame_bytes(const Scene& scene, const FrameOptions& options);
-
 // The two steps that come before the tiles, for traces, tests and lessons.
 
 /// Fills the cache: surface triangles and shadow maps. Adds to `stats`.

@@ -24,7 +24,10 @@ Light light_of(const SceneTable& light);
 Limits limits_of(const SceneDocument& document);
 RenderSettings render_settings_of(const SceneDocument& document);
 
-/// Bytes that rendering one frame holds at once, roughly.
+/// Bytes that rendering one frame holds at once: what `check` tells and rendering is held to. A bound but for
+/// two things, which follow the picture: lists of tiles with more than eight entries per triangle, and layers
+/// where more than twelve surfaces lie behind one another. `frame`: pictures and everything that works on
+/// them.
 struct MemoryEstimate {
     std::int64_t meshes = 0, textures = 0, shadow_maps = 0, frame = 0;
     std::int64_t total() const { return meshes + textures + shadow_maps + frame; }

@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "app/frame_tile.h"
 #include "app/keyframes.h"
 #include "app/scene_build.h"
 #include "app/scene_shapes.h"
 #include "core/error.h"
+#include "core/parallel.h"
+#include "raster/layer_tile.h"
+#include "raster/surface.h"
 
 namespace obscura {
 namespace {
@@ -17,8 +23,47 @@ constexpr std::int64_t triangle_bytes = sizeof(Triangle) + 4 * sizeof(std::uint3
 constexpr std::int64_t pixel_bytes = 48 + 24;
 constexpr std::int64_t depth_bytes = 4;
 
-std::int64_t frame_bytes(const RenderSettings& render) {
+std::int64_t picture_bytes(const RenderSettings& render) {
     return std::int64_t{render.width} * render.height * pixel_bytes;
+}
+
+/// One view at work: vertices, records and planes, lists of tiles (the counts of every block of triangles,
+/// and the entries). Most triangles lie in one tile; we allow eight each, and every record in every tile
+/// where that is less.
+std::int64_t view_bytes(const Mesh& mesh, std::int64_t width, std::int64_t height) {
+    const auto vertices = static_cast<std::int64_t>(mesh.positions.size());
+    const auto triangles = static_cast<std::int64_t>(mesh.triangles.size());
+    const auto faces = static_cast<std::int64_t>(mesh.faces.size());
+    const std::int64_t tiles = ((width + frame_tile_side - 1) / frame_tile_side) *
+                               ((height + frame_tile_side - 1) / frame_tile_side);
+    const std::int64_t blocks = std::min<std::int64_t>(triangles / 4096 + 1, 64);
+    const std::int64_t entries = triangles * std::min<std::int64_t>(tiles, 8);
+    constexpr std::int64_t plane_bytes = sizeof(DepthPlane) + 2 * sizeof(std::int32_t);
+    constexpr std::int64_t entry_bytes = sizeof(std::uint32_t);
+    return vertices * std::int64_t{sizeof(MapVertex)} + triangles * std::int64_t{sizeof(TriangleRecord)} +
+           faces * plane_bytes + (tiles * (blocks + 1) + entries) * entry_bytes;
+}
+
+/// What the threads hold: a tile each, and in shadow maps the layers of one. Layers begin at 12 per texel (8,
+/// and half as many again) and grow only where more surfaces lie behind one another.
+std::int64_t thread_bytes(bool shadows) {
+    constexpr std::int64_t layer_bytes =
+        std::int64_t{layer_tile_texels} * layers_in_place * 3 / 2 * (sizeof(LayerKey) + sizeof(std::int32_t));
+    return hardware_threads() * (std::int64_t{sizeof(TileWork)} + (shadows ? layer_bytes : 0));
+}
+
+/// Setup of the camera and of one light at a time, and tables of surfaces.
+std::int64_t work_bytes(const Scene& scene) {
+    const Mesh& mesh = scene.mesh;
+    std::int64_t bytes = view_bytes(mesh, scene.render.width, scene.render.height) +
+                         static_cast<std::int64_t>(mesh.triangles.size() * sizeof(SurfaceTriangle) +
+                                                   mesh.positions.size() * sizeof(SurfaceVertex));
+    std::int64_t light = 0;
+    for (const Light& l : scene.lights) {
+        if (shadow_map_count(l) > 0)
+            light = std::max(light, view_bytes(mesh, l.shadow.resolution, l.shadow.resolution));
+    }
+    return bytes + light + thread_bytes(light > 0);
 }
 
 double mib(std::int64_t bytes) {
@@ -48,7 +93,7 @@ MemoryEstimate estimate_memory(const Scene& scene) {
     }
     for (const Light& light : scene.lights)
         e.shadow_maps += shadow_map_bytes(light);
-    e.frame = frame_bytes(scene.render);
+    e.frame = picture_bytes(scene.render) + work_bytes(scene);
     return e;
 }
 
@@ -60,7 +105,7 @@ MemoryEstimate estimate_memory(const SceneDocument& document) {
     }
     for (const SceneTable* light : subtables(document.root, "light"))
         e.shadow_maps += shadow_map_bytes(light_of(*light));
-    e.frame = frame_bytes(render_settings_of(document));
+    e.frame = picture_bytes(render_settings_of(document));
     return e;
 }
 

@@ -33,9 +33,13 @@ class Buffer {
     }
     ~Buffer() { free_pages(data_, capacity_ * sizeof(T)); }
 
-    /// Room for `size` values; what was there is lost. Memory is kept when it is large enough.
+    /// Room for `size` values; what was there is lost. Memory is kept when it is large enough, else it is
+    /// given back before more is asked for: never both at once.
     void reset(std::size_t size) {
-        if (size > capacity_) *this = Buffer(size);
+        if (size > capacity_) {
+            *this = Buffer();
+            *this = Buffer(size);
+        }
         size_ = size;
     }
     T* data() { return data_; }

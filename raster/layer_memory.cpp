@@ -1,5 +1,7 @@
 #include "raster/layer_memory.h"
 
+#include "core/error.h"
+
 namespace obscura {
 
 LayerMemory::LayerMemory(bool with_triangles) : rows_(3 * layer_tile_rows) {
@@ -16,7 +18,9 @@ LayerMemory::LayerMemory(bool with_triangles) : rows_(3 * layer_tile_rows) {
 }
 
 void LayerMemory::grow() {
-    CHECK(stack_.capacity < (1 << 26), "a tile with more than 2^26 layers of sixteen crossings");
+    if (stack_.capacity >= (1 << 26)) {
+        throw LimitError("more surfaces lie behind one another than a tile can hold: 2^30 crossings");
+    }
     stack_.capacity *= 2;
     const auto size = static_cast<std::size_t>(stack_.capacity) * 16;
     keys_.reset(size);

@@ -11,6 +11,7 @@ class LayerMemory {
     explicit LayerMemory(bool with_triangles);
 
     /// Runs fill(stack) until no crossing is dropped, each time with twice the memory, and returns the stack.
+    /// LimitError beyond 2^30 crossings.
     template <class Fill>
     const LayerStack& run(Fill&& fill) {
         fill(stack_);

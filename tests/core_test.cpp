@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/buffer.h"
 #include "core/error.h"
 #include "core/isa.h"
 #include "core/parallel.h"
@@ -39,6 +40,17 @@ TEST(Isa, NamesRoundTrip) {
     for (const Isa isa : supported_isas())
         EXPECT_EQ(parse_isa(isa_name(isa)), isa);
     EXPECT_FALSE(parse_isa("avx9"));
+}
+
+TEST(Buffer, GivesItsMemoryBackBeforeItAsksForMore) {
+    Buffer<float> buffer(16);
+    const float* before = buffer.data();
+    buffer.reset(8);
+    EXPECT_EQ(buffer.data(), before);
+    EXPECT_EQ(buffer.size(), 8u);
+    EXPECT_THROW(buffer.reset((std::size_t{1} << 62) - 1), std::bad_alloc);
+    EXPECT_EQ(buffer.data(), nullptr);
+    EXPECT_EQ(buffer.size(), 0u);
 }
 
 }  // namespace

