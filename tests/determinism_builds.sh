@@ -1,6 +1,6 @@
 #!/bin/sh
-# One picture for every build: renders two tiny scenes with the given release binary, with a debug build and,
-# where clang++ exists, with the clang preset, and compares the files byte by byte.
+# One picture for every build: renders every scene of scenes/tests with the given release binary, with a debug
+# build and, where clang++ exists, with the clang preset, and compares the files byte by byte.
 # Usage: determinism_builds.sh RELEASE_BINARY. Builds take minutes when nothing is cached, so this runs in CI
 # and with OBSCURA_SLOW_TESTS=1; otherwise it exits 77, which counts as skipped.
 set -eu
@@ -13,15 +13,15 @@ cd "$(dirname "$0")/.."
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
-scenes=$(ls scenes/tests/*.toml | head -n 2)
+scenes=$(ls scenes/tests/*.toml)
 [ -n "$scenes" ] || { echo "no scenes in scenes/tests"; exit 1; }
 
 # pictures BINARY NAME: renders every scene into $out/NAME-*.
 pictures() {
     for scene in $scenes; do
         stem=$(basename "$scene" .toml)
-        "$1" render "$scene" --quiet --output "$out/$2-$stem.png" --aov depth,normal,albedo,object,shadow
-        "$1" render "$scene" --quiet --output "$out/$2-$stem.pfm"
+        "$1" render "$scene" --quiet --output "$out/$2-$stem-####.png" --aov depth,normal,albedo,object,shadow
+        "$1" render "$scene" --quiet --output "$out/$2-$stem-####.pfm"
     done
 }
 
