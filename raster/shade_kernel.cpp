@@ -139,7 +139,7 @@ OBSCURA_INLINE Incident incident_light(const ShadeLight& light, const Vec3x16& p
         return {splat3(light.to_light), splat3(light.color)};
     } else {
         const Vec3x16 d = splat3(light.position) - position;
-        const F32 r2 = dot(d, d);
+        const F32 r2 = max(dot(d, d), splat(1e-12f));
         const F32 inv = one() / sqrt(r2);
         const Vec3x16 l = d * inv;
         const F32 q = r2 * splat(light.inv_range2);
@@ -190,17 +190,17 @@ void add_light(const SurfaceBlock& s, const ShadeLight& light, const float* visi
         const std::uint32_t covered = s.covered[at / 16];
         if (covered == 0) continue;
         const F32 seen = visibility != nullptr ? load(visibility + at) : one();
-        const Mask here = mask_of(covered);
-        const Mask lit = here & less(splat(0.0f), seen);
+        const Mask lit = mask_of(covered) & less(splat(0.0f), seen);
         if (none(lit)) continue;
         const Incident in = incident_light<kind>(light, load3(s.px + at, s.py + at, s.pz + at));
         const Vec3x16 n = load3(s.nx + at, s.ny + at, s.nz + at);
         const F32 nl = dot(n, in.to_light);
-        // What is dark or looks away adds nothing.
-        if (none(lit & (less(splat(0.0f), nl) | mask_of(s.thin[at / 16])))) continue;
+        // What is dark or looks away gets nothing.
+        const Mask reached = lit & (less(splat(0.0f), nl) | mask_of(s.thin[at / 16]));
+        if (none(reached)) continue;
         const Vec3x16 add = response(s, shade, n, in.to_light, nl, at) * (in.irradiance * seen);
         const Vec3x16 sum = load3(shade.r + at, shade.g + at, shade.b + at);
-        store3(shade.r + at, shade.g + at, shade.b + at, select(here, sum + add, sum));
+        store3(shade.r + at, shade.g + at, shade.b + at, select(reached, sum + add, sum));
     }
 }
 

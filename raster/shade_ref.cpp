@@ -131,7 +131,8 @@ Vec3f sky_irradiance(const ShadeSky& sky, float y) {
 Incident incident_light(const ShadeLight& light, Vec3f position) {
     if (light.kind == ShadeLightKind::directional) return {vec(light.to_light), vec(light.color)};
     const Vec3f d = vec(light.position) - position;
-    const float r2 = dot(d, d);
+    // A surface at the light itself has no direction to it; it stays finite.
+    const float r2 = lane_max(dot(d, d), 1e-12f);
     const float inv = 1.0f / std::sqrt(r2);
     const Vec3f l = d * inv;
     // Inverse square, windowed so that it ends at the range (Karis, "Real Shading in Unreal Engine 4", 2013).
@@ -190,9 +191,13 @@ void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const flo
                  ShadeBlock& shade) noexcept {
     for (int at = 0; at < block_samples; ++at) {
         if ((surface.covered[at / 16] >> (at & 15) & 1u) == 0) continue;
+        const float seen = visibility != nullptr ? visibility[at] : 1.0f;
+        const bool thin = (surface.thin[at / 16] >> (at & 15) & 1u) != 0;
         const LightTerms terms = light_terms(surface, light, shade, at);
+        // What is dark or looks away gets nothing.
+        if (!(0.0f < seen) || !(0.0f < terms.nl || thin)) continue;
         const Vec3f reflected = (terms.diffuse + terms.specular) + terms.through;
-        const Vec3f arriving = terms.incident.irradiance * (visibility != nullptr ? visibility[at] : 1.0f);
+        const Vec3f arriving = terms.incident.irradiance * seen;
         shade.r[at] = shade.r[at] + reflected.x * arriving.x;
         shade.g[at] = shade.g[at] + reflected.y * arriving.y;
         shade.b[at] = shade.b[at] + reflected.z * arriving.z;

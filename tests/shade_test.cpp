@@ -228,6 +228,18 @@ TEST(Shade, PointLightFallsWithTheSquareOfDistanceAndEndsAtItsRange) {
     EXPECT_GT(beyond, 20);
 }
 
+TEST(Shade, ASurfaceAtTheLightItselfStaysFiniteAndTheSameBits) {
+    Scene scene = floor_from_above(16, 4);
+    Light at_floor = at_point(LightKind::point, floor_point(scene, 8, 8), {0, -1, 0}, {7, 7, 7});
+    at_floor.shadow.method = ShadowMethod::none;
+    scene.lights.push_back(at_floor);
+    const Frame expected = render_frame(scene, {}, {Isa::ref, 1});
+    for (int x = 0; x < 16; ++x)
+        EXPECT_TRUE(std::isfinite(pixel(expected, x, 8).x)) << x;
+    for (const Isa isa : supported_isas())
+        EXPECT_EQ(hash(render_frame(scene, {}, {isa, 1})), hash(expected)) << isa_name(isa);
+}
+
 TEST(Shade, SpotIsFullInsideItsConeAndDarkOutside) {
     Scene scene = floor_from_above(128, 8);
     scene.lights.push_back(at_point(LightKind::spot, {0, 3, 0}, {0, -1, 0}, {5, 5, 5}));
