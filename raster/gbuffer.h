@@ -27,7 +27,7 @@ struct SurfaceTriangle {
     std::uint32_t info;  ///< material, and the flags below
 };
 constexpr std::uint32_t surface_material_mask = 0x0fffffffu;
-constexpr std::uint32_t surface_open = 1u << 28;      ///< of an open component
+constexpr std::uint32_t surface_open = 1u << 28;      ///< of a component that is open or inside out
 constexpr std::uint32_t surface_smooth = 1u << 29;    ///< corner normals differ from the face's
 constexpr std::uint32_t surface_textured = 1u << 30;  ///< material has a texture, mesh has uvs
 constexpr std::uint32_t surface_thin = 1u << 31;      ///< material lets light through

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/topology.h"
 
 namespace obscura {
 namespace {
@@ -25,13 +26,15 @@ void surface_tables(const Mesh& mesh, const std::vector<Material>& materials, co
           "shading needs a mesh with topology and normals");
     CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.positions.size());
     CHECK(materials.size() < surface_material_mask && mesh.triangles.size() < 0x7fffffffu);
+    const std::vector<double> volume = signed_volumes(mesh);
     out.triangles.reset(mesh.triangles.size());
     parallel_blocks(mesh.triangles.size(), 4096, exec, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
             const Vec3f normal = to_float(mesh.faces[mesh.face[t]].n);
             const Material& material = materials.at(mesh.material[t]);
             std::uint32_t info = mesh.material[t];
-            if (!mesh.components[mesh.component[t]].closed) info |= surface_open;
+            const std::uint32_t component = mesh.component[t];
+            if (!mesh.components[component].closed || volume[component] < 0) info |= surface_open;
             for (const std::uint32_t v : mesh.triangles[t].v) {
                 if (differs(mesh.normals[v], normal)) info |= surface_smooth;
             }
