@@ -17,7 +17,8 @@ struct FrameOptions {
     bool depth = false, normal = false, albedo = false, object = false, shadow = false;  ///< AOVs wanted
     /// Share of the tiles done, rising to 1; called from any thread, one call at a time, about 200 times.
     std::function<void(double)> progress;
-    const std::atomic<bool>* cancel = nullptr;  ///< set it and the remaining tiles are left out
+    const std::atomic<bool>* cancel = nullptr;  ///< set it and the remaining tiles, of shadow
+                                                ///< maps too, are left out
 };
 
 /// Wall-clock seconds per stage, and exact counts.

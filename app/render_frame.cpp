@@ -32,7 +32,8 @@ bool casts_shadows(const Light& light) {
 bool same_map(const Light& a, const Light& b) {
     return a.kind == b.kind && a.direction == b.direction && a.position == b.position &&
            a.outer_cone_deg == b.outer_cone_deg && a.near_m == b.near_m && a.range_m == b.range_m &&
-           a.shadow.resolution == b.shadow.resolution && a.shadow.receivers == b.shadow.receivers;
+           a.shadow.resolution == b.shadow.resolution && a.shadow.receivers == b.shadow.receivers &&
+           a.shadow.filter_px == b.shadow.filter_px;
 }
 
 Region crop_of(const RenderSettings& render, const FrameOptions& options) {
@@ -111,7 +112,8 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
 
 }  // namespace
 
-void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats) {
+bool prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats,
+                   const std::atomic<bool>* cancel) {
     if (!cache.prepared) {
         const Stopwatch watch;
         surface_tables(scene.mesh, scene.materials, exec, cache.surface);
@@ -131,7 +133,10 @@ void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, Fram
             const bool kept = !shadow.map.views.empty() && same_map(shadow.light, light);
             shadow.light = light;
             if (!kept) {
-                build_shadow_map(scene.mesh, light, cache.bounds, exec, cache.light_scratch, shadow.map);
+                if (!build_shadow_map(scene.mesh, light, cache.bounds, exec, cache.light_scratch, shadow.map,
+                                      cancel)) {
+                    return false;
+                }
                 stats.shadow_maps += static_cast<std::int64_t>(shadow.map.views.size());
             }
             stats.shadow_bytes += dense_map_bytes(light);
@@ -139,6 +144,7 @@ void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, Fram
     }
     cache.shadows.resize(used);
     stats.shadow_s = watch.seconds();
+    return true;
 }
 
 TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache) {
@@ -183,7 +189,12 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     const MemoryEstimate memory = estimate_memory(scene);
     frame.stats.bytes = memory.total();
     check_memory(memory, scene.limits, "the frame");
-    prepare_scene(scene, exec, cache, frame.stats);
+    if (!prepare_scene(scene, exec, cache, frame.stats, options.cancel)) {
+        size_frame(crop_of(scene.render, options), options, frame);
+        frame.complete = false;
+        frame.stats.total_s = total.seconds();
+        return;
+    }
 
     const Stopwatch setup;
     const TileScene tiles = prepare_tiles(scene, exec, cache);

@@ -37,8 +37,10 @@ Frame render_frame(const Scene& scene, const FrameOptions& options = {}, const E
 
 // The two steps that come before the tiles, for traces, tests and lessons.
 
-/// Fills the cache: surface triangles and shadow maps. Adds to `stats`.
-void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats);
+/// Fills the cache: surface triangles and shadow maps. Adds to `stats`. False when `cancel` was set before
+/// the maps were done.
+bool prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats,
+                   const std::atomic<bool>* cancel = nullptr);
 
 /// Sets the camera's triangles up and gathers what the tiles read; borrows from scene and cache.
 TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache);

@@ -8,8 +8,9 @@
 // which is the box of K - 1 texels that is centred on the receiver itself: visibility changes continuously as
 // the receiver moves, and shadow edges are ramps, not stairs.
 //
-// A receiver is lit by a texel when its depth <= the stored depth, and wherever the map does not reach (the
-// six maps of a point light reach everywhere: there, taps are clamped into their map).
+// A receiver is lit by a texel when its depth <= the stored depth, and wherever the map of a parallel light
+// does not reach. Taps of points and spots are clamped into their map: a point's six reach everywhere, and
+// beyond a spot's there is no light but for receivers that their offset moved there.
 //
 // "Its depth" at a texel is that of the receiver's own plane at the texel's centre, where the map sampled it,
 // but not more than the receiver's own (J. Isidoro, "Shadow Mapping: GPU-based Tips and Techniques", GDC
@@ -31,7 +32,8 @@ struct PcfView {
     std::int32_t size = 0;
     bool perspective = false;
     double near_w = 0;    ///< perspective: receivers nearer than this are lit
-    double offset_m = 0;  ///< normal offset of receivers on open components, at distance 1 if perspective
+    double offset_m = 0;  ///< normal offset of receivers on open or inside-out components, at distance 1 if
+                          ///< perspective
     /// On a plane with normal n, with l to the light (unit, or from the receiver to its position):
     /// dZ/dX = n . slope_x / n . l, and the same for Y.
     float slope_x[3] = {0, 0, 0}, slope_y[3] = {0, 0, 0};
@@ -39,6 +41,10 @@ struct PcfView {
 
 /// Planes that light grazes, at less than 0.9 degrees, are taken as if it were that: n . l / |l| is no less.
 constexpr float pcf_least_cosine = 1.0f / 64.0f;
+
+/// Of the way from a surface's plane to a point light or spot, the normal offset goes no further than this
+/// share: in coarse maps far receivers would else be moved past the light.
+constexpr float pcf_nearest_offset = 0.25f;
 
 /// A light as its shadow lookups see it.
 struct PcfLight {
@@ -51,8 +57,9 @@ struct PcfLight {
 };
 
 /// visibility[i] in [0, 1] of every sample of the block: 0 where nothing is covered, and without a lookup
-/// where the face looks away from the light (thin surfaces are looked up on both sides). Receivers on open
-/// components are moved along their normal, to the light's side, by offset_m.
+/// where the face looks away from the light (thin surfaces are looked up on both sides). Receivers on
+/// components that are open or inside out are moved along their normal, to the light's side, by offset_m:
+/// maps hold no solid behind those. (The wall of a cavity is inside out too; there it does no harm.)
 #define OBSCURA_PCF_BLOCK \
     void pcf_block(const SurfaceBlock& surface, const PcfLight& light, float* visibility) noexcept;
 namespace ref {

@@ -36,7 +36,8 @@ OBSCURA_INLINE Moved16 move(const PcfLight& light, const Vec3x16& p, const Vec3x
                             const Vec3x16& to_light, std::uint32_t open) {
     Moved16 m{to_f64(p.x), to_f64(p.y), to_f64(p.z), n, to_light};
     if (open == 0) return m;
-    const F64 offset = splat(light.view[0].offset_m) * axial_distance(light, m);
+    F64 offset = splat(light.view[0].offset_m) * axial_distance(light, m);
+    if (!light.directional) offset = min(offset, to_f64(splat(pcf_nearest_offset) * dot(n, to_light)));
     const Vec3x16 way = select(mask_of(open), n, splat3(0.0f, 0.0f, 0.0f));
     m.x = m.x + to_f64(way.x) * offset;
     m.y = m.y + to_f64(way.y) * offset;
@@ -143,7 +144,7 @@ OBSCURA_INLINE F32 filtered_side(const PcfView& view, bool clamp, const Receiver
 
 F32 lookup(const PcfLight& light, const PcfView& view, const Moved16& p, const Mask& todo) {
     const Receivers16 r = place(view, p);
-    const bool clamp = light.views == 6;
+    const bool clamp = !light.directional;
     F32 seen;
     if (light.side == 1) {
         seen = filtered_side<1>(view, clamp, r, todo);

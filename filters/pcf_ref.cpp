@@ -43,7 +43,10 @@ double axial_distance(const PcfLight& light, const Moved& p) {
 Moved move(const PcfLight& light, Vec3f p, Vec3f n, Vec3f to_light, bool open) {
     Moved m{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), n, to_light};
     if (!open) return m;
-    const double offset = light.view[0].offset_m * axial_distance(light, m);
+    double offset = light.view[0].offset_m * axial_distance(light, m);
+    if (!light.directional) {
+        offset = lane_min(offset, static_cast<double>(pcf_nearest_offset * dot(n, to_light)));
+    }
     m.x = m.x + static_cast<double>(n.x) * offset;
     m.y = m.y + static_cast<double>(n.y) * offset;
     m.z = m.z + static_cast<double>(n.z) * offset;
@@ -141,7 +144,7 @@ PcfTrace trace_pcf(const SurfaceBlock& s, const PcfLight& light, int at) {
     trace.visibility =
         filtered(r, light.side, [&](std::int32_t x, std::int32_t y, float depth, float weight) {
             PcfTap tap{x, y, weight, false, depth, 1.0f, true};
-            if (light.views == 6) {
+            if (!light.directional) {
                 tap.x = std::clamp(x, 0, last);
                 tap.y = std::clamp(y, 0, last);
             }

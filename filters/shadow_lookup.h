@@ -18,7 +18,7 @@ namespace ref {
 struct PcfTap {
     std::int32_t x = 0, y = 0;
     float weight = 0;
-    bool inside = false;  ///< of the map; outside counts as lit
+    bool inside = false;  ///< of the map; outside (parallel light only) counts as lit
     float receiver = 0;   ///< depth of the receiver's plane there, at most that of the receiver
     float stored = 1;
     bool lit = true;

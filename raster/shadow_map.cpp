@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/num.h"
 #include "core/parallel.h"
 
 namespace obscura {
 namespace {
+
+/// tan 85 degrees.
+constexpr double widest_tangent = 11.430052302761343;
 
 /// Middles of the tile's intervals, block by block.
 void store_tile(const DepthInterval* interval, const TileRect& tile, StoredDepths& stored) {
@@ -21,8 +25,12 @@ void store_tile(const DepthInterval* interval, const TileRect& tile, StoredDepth
     }
 }
 
+bool stopped(const std::atomic<bool>* cancel) {
+    return cancel != nullptr && cancel->load(std::memory_order_relaxed);
+}
+
 void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, const Exec& exec,
-                 RasterScratch& scratch, StoredDepths& stored) {
+                 RasterScratch& scratch, const std::atomic<bool>* cancel, StoredDepths& stored) {
     CHECK(view.width == view.height && view.width % 4 == 0);
     SetupParams params;
     params.only_casters = true;
@@ -33,6 +41,7 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
     stored.depth.reset(static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
     const TileBins& bins = scratch.bins;
     parallel_for(static_cast<std::size_t>(bins.rows), exec, [&](std::size_t tile_row) {
+        if (stopped(cancel)) return;
         IntervalTiler tiler;
         alignas(64) DepthInterval interval[layer_tile_texels];
         const auto row = static_cast<int>(tile_row);
@@ -49,18 +58,22 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
 
 std::vector<LightView> shadow_views(const Light& light, const Bounds& bounds) {
     const int resolution = light.shadow.resolution;
+    // What a kernel reaches beyond its receiver's texel, and one more.
+    const int margin = light.shadow.filter_px / 2 + 1;
     switch (light.kind) {
         case LightKind::directional:
         case LightKind::sun:
             return {orthographic_light_view(bounds, light.direction, resolution)};
         case LightKind::spot:
-            // A little wider than the cone: filter kernels at its border find texels. Nothing is wider than
-            // 170 degrees; beyond, the cone's rim stays unshadowed.
-            return {perspective_light_view(light.position, light.direction,
-                                           std::min(2.0 * light.outer_cone_deg + 2.0, 170.0), light.near_m,
-                                           light.range_m, resolution)};
+            // Wider than the cone by the margin. Nothing is wider than 170 degrees; beyond, the cone's rim
+            // takes the map's border.
+            return {tangent_light_view(light.position, light.direction,
+                                       std::min(num::tan(light.outer_cone_deg * (num::pi / 180.0)) *
+                                                    margin_factor(resolution, margin),
+                                                widest_tangent),
+                                       light.near_m, light.range_m, resolution)};
         case LightKind::point:
-            return cube_light_views(light.position, light.near_m, light.range_m, resolution);
+            return cube_light_views(light.position, light.near_m, light.range_m, resolution, margin);
     }
     return {};
 }
@@ -72,13 +85,16 @@ std::int64_t dense_map_bytes(const Light& light) {
            static_cast<std::int64_t>(sizeof(float));
 }
 
-void build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
-                      RasterScratch& scratch, ShadowMap& map) {
+bool build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
+                      RasterScratch& scratch, ShadowMap& map, const std::atomic<bool>* cancel) {
     map.views = shadow_views(light, bounds);
     map.stored.resize(map.views.size());
-    for (std::size_t i = 0; i < map.views.size(); ++i) {
-        render_view(mesh, map.views[i], light.shadow.receivers, exec, scratch, map.stored[i]);
+    for (std::size_t i = 0; i < map.views.size() && !stopped(cancel); ++i) {
+        render_view(mesh, map.views[i], light.shadow.receivers, exec, scratch, cancel, map.stored[i]);
     }
+    if (!stopped(cancel)) return true;
+    map.views.clear();
+    return false;
 }
 
 double texel_size_m(const LightView& view) {

@@ -5,6 +5,7 @@
 // Shadow Depth Map Revisited", Graphics Gems III, 1992: half way between where light enters a solid and where
 // it would leave it, so that neither its lit nor its dark side needs a bias.
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -46,8 +47,9 @@ std::int64_t dense_map_bytes(const Light& light);
 
 /// Renders the map of `light` tile by tile; only stored depths are kept. `map` may hold an earlier map: its
 /// memory is used again.
-void build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
-                      RasterScratch& scratch, ShadowMap& map);
+/// False when `cancel` was set meanwhile (asked for every row of tiles): the map is then without views.
+bool build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
+                      RasterScratch& scratch, ShadowMap& map, const std::atomic<bool>* cancel = nullptr);
 
 /// Metres that a texel of the view spans: everywhere (orthographic), or at distance 1 (perspective).
 double texel_size_m(const LightView& view);

@@ -94,11 +94,22 @@ LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int res
     return view;
 }
 
+double margin_factor(int resolution, int margin_texels) {
+    CHECK(resolution > 2 * margin_texels);
+    return static_cast<double>(resolution) / (resolution - 2 * margin_texels);
+}
+
 LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m,
                                  double far_m, int resolution) {
-    const Frame frame{look_basis(direction, {0, 1, 0}), position};
     const double half = 0.5 * angle_deg * radians;
-    const double texels_per_tangent = 0.5 * resolution * num::cos(half) / num::sin(half);
+    return tangent_light_view(position, direction, num::sin(half) / num::cos(half), near_m, far_m,
+                              resolution);
+}
+
+LightView tangent_light_view(Vec3d position, Vec3d direction, double tangent, double near_m, double far_m,
+                             int resolution) {
+    const Frame frame{look_basis(direction, {0, 1, 0}), position};
+    const double texels_per_tangent = 0.5 * resolution / tangent;
     LightView view = perspective_view(frame, texels_per_tangent, resolution, resolution);
     // Z w = (w - near) * far / (far - near).
     const double k = far_m / (far_m - near_m);
@@ -109,12 +120,13 @@ LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_d
     return view;
 }
 
-std::vector<LightView> cube_light_views(Vec3d position, double near_m, double far_m, int resolution) {
+std::vector<LightView> cube_light_views(Vec3d position, double near_m, double far_m, int resolution,
+                                        int margin_texels) {
+    const double tangent = margin_factor(resolution, margin_texels);
     std::vector<LightView> views;
     for (const Vec3d axis : {Vec3d{1, 0, 0}, Vec3d{-1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, -1, 0}, Vec3d{0, 0, 1},
                              Vec3d{0, 0, -1}}) {
-        // A little more than 90 degrees: filter kernels at a face's border find texels of their own face.
-        views.push_back(perspective_light_view(position, axis, 92.0, near_m, far_m, resolution));
+        views.push_back(tangent_light_view(position, axis, tangent, near_m, far_m, resolution));
     }
     return views;
 }

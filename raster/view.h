@@ -24,8 +24,19 @@ LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int res
 LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m,
                                  double far_m, int resolution);
 
-/// The six faces of a cube around `position`, in the order +X -X +Y -Y +Z -Z.
-std::vector<LightView> cube_light_views(Vec3d position, double near_m, double far_m, int resolution);
+/// The same by the tangent of half the angle.
+LightView tangent_light_view(Vec3d position, Vec3d direction, double tangent, double near_m, double far_m,
+                             int resolution);
+
+/// How much wider the tangent of half the angle must be for `margin_texels` around what it was meant for:
+/// resolution / (resolution - 2 margin_texels).
+double margin_factor(int resolution, int margin_texels);
+
+/// The six faces of a cube around `position`, in the order +X -X +Y -Y +Z -Z: 90 degrees each and
+/// `margin_texels` more on every side, so that filter kernels at a face's border find texels of their own
+/// face.
+std::vector<LightView> cube_light_views(Vec3d position, double near_m, double far_m, int resolution,
+                                        int margin_texels);
 /// Which of the six faces sees direction d.
 int cube_face(Vec3f d);
 
