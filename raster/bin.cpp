@@ -16,36 +16,36 @@ struct TileRange {
     int x0, y0, x1, y1;  ///< inclusive
 };
 
-/// Box and edges of a triangle or pair.
-struct Outline {
-    int x_low, y_low, x_high, y_high;
-    EdgeFunction edge[4];
-    int edges;
-};
-
-Outline outline_of(const TriangleRecord* t) {
-    const auto [x_low, x_high] = std::minmax({t->x[0], t->x[1], t->x[2], t[t->paired].x[1]});
-    const auto [y_low, y_high] = std::minmax({t->y[0], t->y[1], t->y[2], t[t->paired].y[1]});
-    return {x_low, y_low, x_high, y_high, {}, t->paired ? 4 : 3};
+int least(int a, int b) {
+    return a < b ? a : b;
+}
+int most(int a, int b) {
+    return a > b ? a : b;
 }
 
-void add_edges(const TriangleRecord* t, Outline& o) {
-    o.edge[0] = edge_function(t[0], 0);
-    o.edge[1] = edge_function(t[0], 1);
-    o.edge[2] = t->paired ? edge_function(t[1], 0) : edge_function(t[0], 2);
-    if (t->paired) o.edge[3] = edge_function(t[1], 1);
+/// The edges of a triangle (three) or pair (four).
+int outline_edges(const TriangleRecord* t, EdgeFunction (&edge)[4]) {
+    edge[0] = edge_function(t[0], 0);
+    edge[1] = edge_function(t[0], 1);
+    edge[2] = t->paired ? edge_function(t[1], 0) : edge_function(t[0], 2);
+    if (!t->paired) return 3;
+    edge[3] = edge_function(t[1], 1);
+    return 4;
 }
 
 /// Calls fn(tile index) for each tile that the triangle or pair at `t` may touch.
 template <class Fn>
 void for_each_tile(const TriangleRecord* t, const TileBins& bins, int shift, Fn&& fn) {
     const int bits = subtexel_bits + shift;
-    Outline o = outline_of(t);
-    // Places relative to the region's corner.
+    // Box of the corners, in tiles from the region's corner. A pair has one corner more: the second half's
+    // corner 1.
     const int x_begin = bins.region.x0 * subtexel_one, y_begin = bins.region.y0 * subtexel_one;
-    const TileRange r = {std::max((o.x_low - x_begin) >> bits, 0), std::max((o.y_low - y_begin) >> bits, 0),
-                         std::min((o.x_high - x_begin) >> bits, bins.columns - 1),
-                         std::min((o.y_high - y_begin) >> bits, bins.rows - 1)};
+    const int x3 = t[t->paired].x[1], y3 = t[t->paired].y[1];
+    const TileRange r = {
+        most((least(least(t->x[0], t->x[1]), least(t->x[2], x3)) - x_begin) >> bits, 0),
+        most((least(least(t->y[0], t->y[1]), least(t->y[2], y3)) - y_begin) >> bits, 0),
+        least((most(most(t->x[0], t->x[1]), most(t->x[2], x3)) - x_begin) >> bits, bins.columns - 1),
+        least((most(most(t->y[0], t->y[1]), most(t->y[2], y3)) - y_begin) >> bits, bins.rows - 1)};
     // Small boxes: taking a tile too many costs less than asking.
     if ((r.x1 - r.x0) + (r.y1 - r.y0) <= 1) {
         for (int y = r.y0; y <= r.y1; ++y) {
@@ -54,14 +54,15 @@ void for_each_tile(const TriangleRecord* t, const TileBins& bins, int shift, Fn&
         }
         return;
     }
-    add_edges(t, o);
+    EdgeFunction edge[4];
+    const int edges = outline_edges(t, edge);
     const std::int64_t side = std::int64_t{1} << bits;
     for (int y = r.y0; y <= r.y1; ++y) {
         for (int x = r.x0; x <= r.x1; ++x) {
             // A tile is out when its most inner corner is outside one edge.
             bool outside = false;
-            for (int k = 0; k < o.edges; ++k) {
-                const EdgeFunction& f = o.edge[k];
+            for (int k = 0; k < edges; ++k) {
+                const EdgeFunction& f = edge[k];
                 outside =
                     outside || f.at(x_begin + (x + (f.A > 0)) * side, y_begin + (y + (f.B > 0)) * side) < 0;
             }

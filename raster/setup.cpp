@@ -184,8 +184,10 @@ class BlockSetup {
 
   private:
     void emit(std::uint32_t t, SnappedVertex p, SnappedVertex q, SnappedVertex r) {
-        const auto [x_low, x_high] = std::minmax({p.x, q.x, r.x});
-        const auto [y_low, y_high] = std::minmax({p.y, q.y, r.y});
+        const std::int32_t x_low = std::min(std::min(p.x, q.x), r.x),
+                           x_high = std::max(std::max(p.x, q.x), r.x);
+        const std::int32_t y_low = std::min(std::min(p.y, q.y), r.y),
+                           y_high = std::max(std::max(p.y, q.y), r.y);
         // What reaches no sample gives no record.
         if (x_high < x_begin_ || y_high < y_begin_ || x_low >= x_end_ || y_low >= y_end_) return;
         if (params_.centre_samples_only &&
