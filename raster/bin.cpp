@@ -40,12 +40,17 @@ void for_each_tile(const TriangleRecord* t, const TileBins& bins, int shift, Fn&
     // Box of the corners, in tiles from the region's corner. A pair has one corner more: the second half's
     // corner 1.
     const int x_begin = bins.region.x0 * subtexel_one, y_begin = bins.region.y0 * subtexel_one;
-    const int x3 = t[t->paired].x[1], y3 = t[t->paired].y[1];
-    const TileRange r = {
-        most((least(least(t->x[0], t->x[1]), least(t->x[2], x3)) - x_begin) >> bits, 0),
-        most((least(least(t->y[0], t->y[1]), least(t->y[2], y3)) - y_begin) >> bits, 0),
-        least((most(most(t->x[0], t->x[1]), most(t->x[2], x3)) - x_begin) >> bits, bins.columns - 1),
-        least((most(most(t->y[0], t->y[1]), most(t->y[2], y3)) - y_begin) >> bits, bins.rows - 1)};
+    int x_low = least(least(t->x[0], t->x[1]), t->x[2]), x_high = most(most(t->x[0], t->x[1]), t->x[2]);
+    int y_low = least(least(t->y[0], t->y[1]), t->y[2]), y_high = most(most(t->y[0], t->y[1]), t->y[2]);
+    if (t->paired) {
+        x_low = least(x_low, t[1].x[1]);
+        x_high = most(x_high, t[1].x[1]);
+        y_low = least(y_low, t[1].y[1]);
+        y_high = most(y_high, t[1].y[1]);
+    }
+    const TileRange r = {most((x_low - x_begin) >> bits, 0), most((y_low - y_begin) >> bits, 0),
+                         least((x_high - x_begin) >> bits, bins.columns - 1),
+                         least((y_high - y_begin) >> bits, bins.rows - 1)};
     // Small boxes: taking a tile too many costs less than asking.
     if ((r.x1 - r.x0) + (r.y1 - r.y0) <= 1) {
         for (int y = r.y0; y <= r.y1; ++y) {
@@ -78,8 +83,9 @@ void for_each_record(const TriangleSetup& setup, std::size_t c, std::size_t chun
     for (std::size_t b = blocks * c / chunks; b < blocks * (c + 1) / chunks; ++b) {
         const RecordBlock& block = setup.blocks[b];
         for (std::size_t i = block.begin; i < block.begin + block.count; ++i) {
-            fn(&setup.records[i], i);
-            i += setup.records[i].paired ? 1 : 0;
+            // Asked of the record itself: a loop that jumps by what it just read waits for memory at every
+            // step.
+            if (!setup.records[i].second) fn(&setup.records[i], i);
         }
     }
 }

@@ -28,7 +28,8 @@ struct TriangleRecord {
     std::uint32_t triangle;  ///< index into the mesh
     Crossing crossing;
     bool paired = false;  ///< the next record is the other half of the quadrilateral
-    std::uint8_t unused[2] = {};
+    bool second = false;  ///< this is that other half
+    std::uint8_t unused = 0;
 };
 static_assert(sizeof(TriangleRecord) == 64);
 

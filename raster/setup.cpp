@@ -217,7 +217,7 @@ class BlockSetup {
         if (out_ - begin_ < 2) return;
         TriangleRecord* const p = out_ - 2;
         TriangleRecord* const q = out_ - 1;
-        if (p->paired || q->crossing != p->crossing || paired_with_ == p) return;
+        if (p->second || q->crossing != p->crossing) return;
         if (mesh_.face[p->triangle] != mesh_.face[q->triangle]) return;
         for (int k = 0; k < 3; ++k) {
             for (int l = 0; l < 3; ++l) {
@@ -228,7 +228,7 @@ class BlockSetup {
                 turn(*p, k);
                 turn(*q, l);
                 p->paired = turns_out(*q, 1, *p, 0, *p, 1) && turns_out(*p, 1, *p, 2, *q, 1);
-                if (p->paired) paired_with_ = q;
+                q->second = p->paired;
                 return;
             }
         }
@@ -276,7 +276,6 @@ class BlockSetup {
     std::int32_t x_begin_, y_begin_, x_end_, y_end_;  ///< the region, fixed point
     bool only_casters_;                               ///< a mesh without named objects casts as a whole
     TriangleRecord *begin_ = nullptr, *out_ = nullptr;
-    const TriangleRecord* paired_with_ = nullptr;  ///< second half of the last pair
 };
 
 /// Room for each block: one record a triangle, but six where a triangle must be clipped (eight corners at
