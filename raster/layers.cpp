@@ -61,8 +61,9 @@ Layers layers_of(const Mesh& mesh, const LightView& view, const Region& region, 
     for (int y = 0; y < region.height; ++y) {
         for (int x = 0; x < region.width; ++x) {
             const TileLayers& tile = tiles[bins.index(x / layer_tile_side, y / layer_tile_side)];
-            const auto texel =
-                static_cast<std::size_t>((y % layer_tile_side) * layer_tile_side + x % layer_tile_side);
+            const int column = x % layer_tile_side, row = y % layer_tile_side;
+            const std::size_t texel =
+                static_cast<std::size_t>(row) * layer_tile_side + static_cast<std::size_t>(column);
             const LayerCrossing* all = tile.crossings.data();
             layers.crossings.insert(layers.crossings.end(), all + tile.first[texel],
                                     all + tile.first[texel + 1]);
