@@ -126,14 +126,14 @@ OBSCURA_INLINE F32 filtered(const PcfView& view, bool clamp, const Receivers16& 
 }
 
 template <int side>
-OBSCURA_INLINE F32 filtered_side(const PcfView& view, bool clamp, const Receivers16& r, const Mask& todo) {
+OBSCURA_INLINE F32 filtered_side(const PcfView& view, bool clamp, const Receivers16& r, const Mask& active) {
     const I32 x256 = round_to_i32(r.X * splat(256.0)), y256 = round_to_i32(r.Y * splat(256.0));
     I32 ix = shift_right<8>(x256), iy = shift_right<8>(y256);
     const F32 fx = to_f32(x256 & splat(std::int32_t{255})) * splat(1.0f / 256.0f);
     const F32 fy = to_f32(y256 & splat(std::int32_t{255})) * splat(1.0f / 256.0f);
     const std::int32_t low = side / 2, high = view.size - 1 - side / 2;
     const Mask interior = between(ix, low, high) & between(iy, low, high);
-    if (high >= low && all(interior | ~todo)) {
+    if (high >= low && all(interior | ~active)) {
         // Lanes that nobody asked about must not read beyond the map.
         ix = clamped(ix, low, high);
         iy = clamped(iy, low, high);
@@ -142,16 +142,16 @@ OBSCURA_INLINE F32 filtered_side(const PcfView& view, bool clamp, const Receiver
     return filtered<side, false>(view, clamp, r, ix, iy, fx, fy);
 }
 
-F32 lookup(const PcfLight& light, const PcfView& view, const Moved16& p, const Mask& todo) {
+F32 lookup(const PcfLight& light, const PcfView& view, const Moved16& p, const Mask& active) {
     const Receivers16 r = place(view, p);
     const bool clamp = !light.directional;
     F32 seen;
     if (light.side == 1) {
-        seen = filtered_side<1>(view, clamp, r, todo);
+        seen = filtered_side<1>(view, clamp, r, active);
     } else if (light.side == 3) {
-        seen = filtered_side<3>(view, clamp, r, todo);
+        seen = filtered_side<3>(view, clamp, r, active);
     } else {
-        seen = filtered_side<5>(view, clamp, r, todo);
+        seen = filtered_side<5>(view, clamp, r, active);
     }
     return select(r.before_near, splat(1.0f), seen);
 }
@@ -173,16 +173,16 @@ F32 group_visibility(const SurfaceBlock& s, const PcfLight& light, int at) {
     const Vec3x16 p = load3(s.px + at, s.py + at, s.pz + at), g = load3(s.gx + at, s.gy + at, s.gz + at);
     const Vec3x16 l = towards(light, p);
     const F32 cosine = dot(g, l);
-    const Mask todo = mask_of(covered) & (less(splat(0.0f), cosine) | mask_of(s.thin[at / 16]));
-    if (none(todo)) return visibility;
+    const Mask active = mask_of(covered) & (less(splat(0.0f), cosine) | mask_of(s.thin[at / 16]));
+    if (none(active)) return visibility;
 
     const Moved16 receiver = move(light, p, negated(less(cosine, splat(0.0f)), g), l, s.open[at / 16]);
     if (light.views == 1) {
-        return select(todo, lookup(light, light.view[0], receiver, todo), visibility);
+        return select(active, lookup(light, light.view[0], receiver, active), visibility);
     }
     const I32 face = cube_faces(negated(mask_of(0xffffu), receiver.to_light));
     for (std::int32_t f = 0; f < 6; ++f) {
-        const Mask m = todo & equal(face, splat(f));
+        const Mask m = active & equal(face, splat(f));
         if (none(m)) continue;
         visibility = select(m, lookup(light, light.view[f], receiver, m), visibility);
     }
