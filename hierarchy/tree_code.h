@@ -1,0 +1,47 @@
+#pragma once
+// The serialised tree as lookups read it. POD: kernels include this.
+//
+// Scandolo, Bauszat, Eisemann 2016, section 3.2, after S. Lefebvre, H. Hoppe, "Compressed Random-Access Trees
+// for Spatially Coherent Data", EGSR 2007: depth first, siblings side by side, each inner node with the kinds
+// of its children and one offset to the first of them, in units that grow with the height of the node.
+//
+//   header   bits 0-7: kinds of the four children (ChildKind, two bits each); above: offset
+//   full     header, value        empty    header        leaf    value
+//
+// In words (32 bits) the header is one word; full nodes take two units, empty nodes and leaves one. The
+// kinds' numbers are chosen so that the units of the siblings before child i are the bits that are set below
+// bit 2i. In bytes the header has three (16 bits of offset), so full, empty, leaf take 7, 3 and 4 units:
+// three for every high bit of a kind that is set and four for every low one.
+
+#include <cstdint>
+
+namespace obscura {
+
+/// Levels of the largest map (2^20 texels a side), and the root's.
+constexpr int max_tree_levels = 20;
+
+enum class TreeLayout : std::uint32_t {
+    words16 = 0,  ///< words, offsets of 16 bits: the paper's
+    words24 = 1,  ///< words, offsets of 24 bits
+    bytes16 = 2,  ///< bytes, offsets of 16 bits: the paper's without padding
+};
+
+/// One entry of the dense top grid: where a descent stands after its first levels.
+struct TopNode {
+    std::uint32_t node = 0;   ///< unit index of the inner node, or no_tree_node when the descent ended above
+    std::uint32_t value = 0;  ///< unit index of the last value on the way, this node's included
+};
+constexpr std::uint32_t no_tree_node = 0xffffffffu;
+
+/// What a lookup needs of a tree. The root stands at unit 0 and is always a full node, even without children.
+/// children(node at height h) = node + offset * offset_scale[h]; texels have height 0, the root `levels`.
+struct TreeCode {
+    const std::uint8_t* units = nullptr;  ///< words: aligned to 4; bytes: readable 3 beyond the end
+    TreeLayout layout = TreeLayout::words24;
+    std::int32_t levels = 0;
+    std::uint32_t offset_scale[max_tree_levels + 1] = {};
+    const TopNode* top = nullptr;  ///< 2^top_levels squared entries, row by row; null: none
+    std::int32_t top_levels = 0;
+};
+
+}  // namespace obscura
