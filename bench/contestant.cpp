@@ -14,6 +14,10 @@ const char* workload_name(Workload workload) {
             return "frame";
         case Workload::static_frame:
             return "static frame";
+        case Workload::shadow_map:
+            return "shadow map";
+        case Workload::lookup:
+            return "lookup";
     }
     return "";
 }
@@ -37,6 +41,9 @@ std::size_t result_size(Workload workload, const BenchScene& scene) {
         case Workload::frame:
         case Workload::static_frame:
             return 3 * pixels(scene.scene.render.width, scene.scene.render.height);
+        case Workload::shadow_map:
+        case Workload::lookup:
+            break;
     }
     return 0;
 }

@@ -18,7 +18,11 @@ namespace obscura {
 ///  shadow
 ///    maps are new, a hierarchy over the scene is kept;
 ///  - static_frame: the same when only the camera has moved: shadow maps are kept too.
-enum class Workload { depth, dual_depth, frame, static_frame };
+/// The shadow bench asks for two more, without results to compare there:
+///  - shadow_map: makes a light's shadow map;
+///  - lookup: visibility of every pixel of a picture.
+enum class Workload { depth, dual_depth, frame, static_frame, shadow_map, lookup };
+/// Those of the raster bench.
 inline constexpr Workload all_workloads[] = {Workload::depth, Workload::dual_depth, Workload::frame,
                                              Workload::static_frame};
 

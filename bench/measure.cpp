@@ -55,8 +55,12 @@ void enter(Field& field, const Contestant& contestant, const BenchScene& scene, 
     if (!contestant.absent.empty())
         return add_problem(field, scene, contestant, threads, "absent: " + contestant.absent);
     try {
-        field.workers.push_back(
-            std::make_unique<Worker>(contestant, scene, Exec{best_isa(), threads}, canvas));
+        field.workers.push_back(std::make_unique<Worker>(
+            contestant.name,
+            [&] {
+                return contestant.open(scene, Exec{best_isa(), threads});
+            },
+            threads, canvas));
     } catch (const std::runtime_error& error) {
         return add_problem(field, scene, contestant, threads, fmt::format("cannot open: {}", error.what()));
     }

@@ -147,6 +147,9 @@ std::string workload_title(const BenchRow& row) {
             return "Shaded frame after the light has moved" + size;
         case Workload::static_frame:
             return "Shaded frame after only the camera has moved" + size;
+        case Workload::shadow_map:
+        case Workload::lookup:
+            break;
     }
     return {};
 }

@@ -99,11 +99,10 @@ std::string answer(const Session& session, const Request& request, float* canvas
 }
 
 /// The life of a worker process. Ends when the bench closes its end of the socket.
-void serve(int socket, const Contestant& contestant, const BenchScene& scene, const Exec& exec,
-           float* canvas) {
+void serve(int socket, const std::function<Session()>& open, int threads, float* canvas) {
     try {
-        pin_to_cores(exec.threads);
-        const Session session = contestant.open(scene, exec);
+        pin_to_cores(threads);
+        const Session session = open();
         Request request{};
         bool connected = send_text(socket, write_session(session));
         while (connected && receive_all(socket, &request, sizeof request)) {
@@ -135,9 +134,9 @@ SharedFloats::~SharedFloats() {
     munmap(data_, count_ * sizeof(float));
 }
 
-Worker::Worker(const Contestant& contestant, const BenchScene& scene, const Exec& exec,
+Worker::Worker(const std::string& name, const std::function<Session()>& open, int threads,
                const SharedFloats& canvas)
-    : name_(contestant.name) {
+    : name_(name) {
     CHECK(threads_of_this_process() == 1, "workers must be forked before any thread is started");
     int ends[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
@@ -148,7 +147,7 @@ Worker::Worker(const Contestant& contestant, const BenchScene& scene, const Exec
     if (process_ == 0) {
         close(ends[0]);
         prctl(PR_SET_PDEATHSIG, SIGKILL);
-        serve(ends[1], contestant, scene, exec, canvas.data());
+        serve(ends[1], open, threads, canvas.data());
         _exit(0);
     }
     close(ends[1]);

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,10 +39,10 @@ struct WorkerJob {
 
 class Worker {
   public:
-    /// Forks a process that is pinned to exec.threads cores (as many as there are) and opens the scene there.
-    /// The caller must have a single thread: a forked process inherits only the one that forked. Throws
-    /// std::runtime_error with the contestant's message when it cannot open.
-    Worker(const Contestant& contestant, const BenchScene& scene, const Exec& exec,
+    /// Forks a process that is pinned to `threads` cores (as many as there are) and opens a session there;
+    /// `name` is the contestant's. The caller must have a single thread: a forked process inherits only the
+    /// one that forked. Throws std::runtime_error with the session's message when it cannot open.
+    Worker(const std::string& name, const std::function<Session()>& open, int threads,
            const SharedFloats& canvas);
     ~Worker();
     Worker(const Worker&) = delete;
