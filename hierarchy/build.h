@@ -10,28 +10,22 @@
 #include "core/scene.h"
 #include "core/types.h"
 #include "hierarchy/multires.h"
+#include "hierarchy/needed_nodes.h"
 
 namespace obscura {
 
-/// Squares of a map whose values will be asked for: at level 0 texels, at level l squares of 2^l texels whose
-/// own value (a descent that stops there) is wanted, not what lies below it.
-class NeededNodes {
-  public:
-    /// x, y in squares of that level.
-    void add(std::uint32_t x, std::uint32_t y, int level);
-    /// Sorts, drops repetitions; call before building.
-    void finish();
-    /// Sorted by the first texel's Morton code (x in the even bits), then level: code << 5 | level.
-    const std::vector<std::uint64_t>& codes() const { return codes_; }
-
-  private:
-    std::vector<std::uint64_t> codes_;
+/// What became of a square, for lessons and pictures.
+struct BuildSquare {
+    enum Fate : std::uint8_t { divided, nothing, cover, mesh, rasterized, not_needed } fate = divided;
+    std::int32_t x0 = 0, y0 = 0, side = 1;
 };
 
 struct BuildParams {
     Receivers receivers = Receivers::any;
     bool only_casters = true;
     const NeededNodes* needed = nullptr;  ///< build only what these need; null: everything
+    bool mesh_certificate = true;  ///< false: only single planes decide squares, to see what the rest gains
+    std::vector<BuildSquare>* trace = nullptr;  ///< receives every square that was visited, parents first
 };
 
 /// What a construction did: exact counts, the same for any exec.
@@ -40,7 +34,8 @@ struct BuildStats {
     std::uint64_t certified_cover = 0;  ///< squares decided by single planes that cover them
     std::uint64_t certified_mesh = 0;   ///< squares decided by surfaces of several triangles
     std::uint64_t texels_rasterized = 0;
-    std::uint64_t list_operations = 0;  ///< record-square tests
+    std::uint64_t list_operations = 0;  ///< facet-square tests
+    std::uint64_t facets = 0;           ///< triangles and pairs that reach the map
     double setup_s = 0, build_s = 0;    ///< seconds of wall clock
 };
 

@@ -1,0 +1,372 @@
+#include "hierarchy/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "raster/intervals.h"
+
+namespace obscura {
+namespace {
+
+/// Longer lists are not searched for surfaces of several facets: such squares are divided anyway.
+constexpr std::size_t longest_connected = 1024;
+
+float ulp(float z) {
+    return std::nextafterf(z, 2.0f) - z;
+}
+
+/// The four corner texels' centres.
+struct Corners {
+    double X[2], Y[2];
+    explicit Corners(const Square& s)
+        : X{s.x0 + 0.5, s.x0 + s.side - 0.5}, Y{s.y0 + 0.5, s.y0 + s.side - 0.5} {}
+};
+
+}  // namespace
+
+Verdict Judge::judge(const Square& square, std::vector<Listed>& list, std::size_t begin) {
+    const std::span<Listed> own(list.data() + begin, list.size() - begin);
+    connect(square, own);
+    gather(square, own);
+    const Course found = course(square);
+
+    Verdict verdict;
+    verdict.common = common(found, square, own);
+    verdict.by_mesh = verdict.common && ((found.first.plane == nullptr && found.kind != Course::nothing) ||
+                                         (found.kind == Course::solid && found.last.plane == nullptr));
+    verdict.deepest = found.kind == Course::uncertain ? exit_bound() : found.deepest;
+    list.erase(std::remove_if(list.begin() + static_cast<std::ptrdiff_t>(begin), list.end(),
+                              [](const Listed& l) { return l.facet == no_facet; }),
+               list.end());
+    return verdict;
+}
+
+std::uint32_t Judge::root_of(std::uint32_t place) {
+    while (parent_[place] != place)
+        place = parent_[place] = parent_[parent_[place]];
+    return place;
+}
+
+/// Joins facets that share an edge within the square. What is left is torn where an edge has nothing beyond
+/// it.
+void Judge::connect(const Square& square, std::span<const Listed> list) {
+    const auto count = static_cast<std::uint32_t>(list.size());
+    parent_.resize(count);
+    groups_.assign(count, {});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        parent_[i] = i;
+        slot_[list[i].facet] = i;
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (list[i].covers_all()) continue;
+        if (!surfaces_ || count > longest_connected) {
+            groups_[i].torn = true;
+            continue;
+        }
+        const Facet& f = set_.facets[list[i].facet];
+        for (int k = 0; k < f.edges; ++k) {
+            if ((list[i].crossed >> k & 1u) == 0 || !edge_meets(set_, f, k, square)) continue;
+            const std::uint32_t other = f.neighbour[k];
+            const std::uint32_t j = other == no_facet ? count : slot_[other];
+            if (j < count && list[j].facet == other && !list[j].covers_all()) {
+                parent_[root_of(i)] = root_of(j);
+            } else {
+                groups_[i].torn = true;
+            }
+        }
+    }
+}
+
+bool Judge::covers_first_texel(const Listed& l, const Square& square) const {
+    const Facet& f = set_.facets[l.facet];
+    for (int k = 0; k < f.edges; ++k) {
+        if ((l.crossed >> k & 1u) != 0 && set_.edge(f, k).at(square.left(), square.top()) < 0) return false;
+    }
+    return true;
+}
+
+/// Sorts what is listed into layers, which cover every texel equally often, and the uncertain rest. Groups
+/// that cover no texel leave the list.
+void Judge::gather(const Square& square, std::span<Listed> list) {
+    layers_.clear();
+    uncertain_entries_.clear();
+    least_uncertain_ = 2.0f;
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+        const Listed& l = list[i];
+        Group& g = groups_[parent_[i] = root_of(i)];
+        const TriangleRecord& plane = set_.plane(set_.facets[l.facet]);
+        if (g.plane == nullptr) g.plane = &plane;
+        g.one_plane =
+            g.one_plane && (std::tie(g.plane->a, g.plane->b, g.plane->c, g.plane->zmin, g.plane->zmax) ==
+                            std::tie(plane.a, plane.b, plane.c, plane.zmin, plane.zmax));
+        g.low = std::min(g.low, l.low);
+        g.high = std::max(g.high, l.high);
+        g.torn = g.torn || groups_[i].torn;
+        g.weight += covers_first_texel(l, square);
+    }
+    const std::int32_t last_x = square.x0 + square.side - 1, last_y = square.y0 + square.side - 1;
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+        const std::uint32_t root = parent_[i];
+        const Group& g = groups_[root];
+        const Crossing crossing = set_.facets[list[i].facet].crossing;
+        if (g.torn) {
+            least_uncertain_ = std::min(least_uncertain_, list[i].low);
+            if (crossing == Crossing::entry) uncertain_entries_.push_back(list[i].low);
+        } else if (g.weight == 0) {
+            list[i].facet = no_facet;
+        } else if (root == i) {
+            Layer layer{crossing, g.weight, g.low, g.high, nullptr, root};
+            if (g.one_plane && g.weight == 1) {
+                const DepthRange r = plane_range(*g.plane, square.x0, last_x, square.y0, last_y);
+                layer.low = r.low;
+                layer.high = r.high;
+                layer.plane = g.plane;
+            }
+            layers_.push_back(layer);
+        }
+    }
+    std::sort(layers_.begin(), layers_.end(), [](const Layer& p, const Layer& q) {
+        return std::tie(p.low, p.crossing, p.root) < std::tie(q.low, q.crossing, q.root);
+    });
+}
+
+/// Whether p lies before q at every texel, or at the same depth with its crossing first. Their distance is
+/// affine; where it exceeds the rounding at the corners, it does so everywhere between. Rounding to equality
+/// would already be too much: equal depths count entries first.
+bool Judge::certain_order(const Layer& p, const Layer& q, const Square& square) const {
+    const Corners at(square);
+    const TriangleRecord &s = *p.plane, &t = *q.plane;
+    const bool same = s.a == t.a && s.b == t.b && s.c == t.c;
+    if (same && p.crossing > q.crossing) return false;
+    const double step = ulp(std::max(p.high, q.high));
+    for (const double X : at.X) {
+        for (const double Y : at.Y) {
+            const double zs = s.a * X + (s.b * Y + s.c), zt = t.a * X + (t.b * Y + t.c);
+            // Clamped depths are not affine.
+            const float fs = static_cast<float>(zs), ft = static_cast<float>(zt);
+            if (fs < s.zmin || fs > s.zmax || ft < t.zmin || ft > t.zmax) return false;
+            const double terms = std::fabs(s.a * X) + std::fabs(s.b * Y) + std::fabs(s.c) +
+                                 std::fabs(t.a * X) + std::fabs(t.b * Y) + std::fabs(t.c);
+            if (!same && !(zt - zs > 2.0 * step + 8.0 * std::numeric_limits<double>::epsilon() * terms))
+                return false;
+        }
+    }
+    return true;
+}
+
+/// Layers whose depths overlap: orders them where planes allow it.
+bool Judge::put_in_order(std::span<Layer> cluster, const Square& square) const {
+    const Corners at(square);
+    for (const Layer& l : cluster) {
+        if (l.plane == nullptr) return false;
+    }
+    std::sort(cluster.begin(), cluster.end(), [&](const Layer& p, const Layer& q) {
+        const float zp = depth_at(*p.plane, at.X[0], at.Y[0]), zq = depth_at(*q.plane, at.X[0], at.Y[0]);
+        return std::tie(zp, p.crossing, p.root) < std::tie(zq, q.crossing, q.root);
+    });
+    for (std::size_t i = 1; i < cluster.size(); ++i) {
+        const Layer &p = cluster[i - 1], &q = cluster[i];
+        if (!(p.high < q.low) && !certain_order(p, q, square)) return false;
+    }
+    return true;
+}
+
+/// Runs the counter of raster/intervals.h once for all texels.
+Judge::Course Judge::course(const Square& square) {
+    Course c;
+    int inside = 0;
+    for (std::size_t i = 0; i < layers_.size();) {
+        // Layers whose depths overlap, and their counts.
+        std::size_t end = i;
+        float reach = layers_[i].high;
+        int entries = 0, exits = 0;
+        for (; end < layers_.size() && layers_[end].low <= reach; ++end) {
+            reach = std::max(reach, layers_[end].high);
+            entries += layers_[end].crossing == Crossing::entry ? layers_[end].weight : 0;
+            exits += layers_[end].crossing == Crossing::exit ? layers_[end].weight : 0;
+        }
+        if (least_uncertain_ <= reach) return {};
+        const std::size_t begin = i;
+        i = end;
+        if (inside > exits) {
+            inside += entries - exits;  // in whatever order, the counter stays above zero
+            continue;
+        }
+        const std::span<Layer> cluster(layers_.data() + begin, end - begin);
+        if (cluster.size() > 1 && !put_in_order(cluster, square)) return {};
+        for (std::size_t k = begin; k < end; ++k) {
+            const Layer& layer = layers_[k];
+            if (inside == 0) {
+                c.first = layer;
+                c.exact = layer.weight == 1;
+                if (layer.crossing == Crossing::open && receivers_ == Receivers::static_only) {
+                    follow(k, end, c);
+                    return c;
+                }
+                if (layer.crossing != Crossing::entry) {
+                    c.kind = Course::point;
+                    c.deepest = layer.high;
+                    return c;
+                }
+            }
+            if (layer.crossing == Crossing::entry) inside += layer.weight;
+            if (layer.crossing == Crossing::exit && (inside -= layer.weight) <= 0) {
+                c.kind = Course::solid;
+                c.last = layer;
+                c.deepest = layer.high;
+                c.exact = c.exact && layer.weight == 1;
+                return c;
+            }
+        }
+    }
+    // Nothing more comes: where the counter is not back at zero, the interval has no width. That is known
+    // only at the end of the list, so nothing may be dropped.
+    if (least_uncertain_ <= 1.0f) return {};
+    c.kind = layers_.empty() ? Course::nothing : Course::point;
+    return c;
+}
+
+/// An open surface, layer k, that only the scene's own surfaces see: its interval reaches up to what follows
+/// it. Layers before `ordered` are in certain order.
+void Judge::follow(std::size_t k, std::size_t ordered, Course& c) const {
+    c.kind = Course::open;
+    c.followed = k + 1 < layers_.size();
+    if (!c.followed) {
+        c.exact = c.exact && least_uncertain_ > 1.0f;
+        return;
+    }
+    c.last = layers_[k + 1];
+    c.deepest = c.last.high;
+    const bool next_alone =
+        k + 1 < ordered || k + 2 == layers_.size() || layers_[k + 2].low > layers_[k + 1].high;
+    c.exact = c.exact && next_alone && least_uncertain_ > c.last.high;
+}
+
+/// A depth by which every texel's interval is decided, though their order is not certain. Beyond a back face
+/// that covers all texels, at depth z, that is so when not more front faces may lie before z at any texel
+/// than back faces certainly do: the counter has then come back to zero.
+float Judge::exit_bound() const {
+    float bound = 2.0f;
+    for (const Layer& candidate : layers_) {
+        if (candidate.crossing == Crossing::entry || candidate.high >= bound) continue;
+        const float z = candidate.high;
+        int surplus = 0;
+        float second = 2.0f;
+        for (const Layer& l : layers_) {
+            if (l.crossing == Crossing::entry && l.low <= z) surplus += l.weight;
+            if (l.crossing == Crossing::exit && l.high <= z) surplus -= l.weight;
+            if (&l != &candidate) second = std::min(second, l.high);
+        }
+        for (const float low : uncertain_entries_)
+            surplus += low <= z;
+        if (candidate.crossing == Crossing::exit) {
+            if (surplus <= 0) bound = z;
+            continue;
+        }
+        // An open surface ends an interval only where no front face comes before it, and back faces before it
+        // do the same; seen by the scene alone, at whatever comes next.
+        const bool first =
+            std::none_of(layers_.begin(), layers_.end(),
+                         [&](const Layer& l) { return l.crossing == Crossing::entry && l.low <= z; }) &&
+            std::none_of(uncertain_entries_.begin(), uncertain_entries_.end(),
+                         [&](float low) { return low <= z; });
+        if (!first) continue;
+        bound = receivers_ == Receivers::static_only ? std::min(bound, std::max(z, second)) : z;
+    }
+    return bound;
+}
+
+std::optional<DepthInterval> Judge::common(const Course& c, const Square& square,
+                                           std::span<const Listed> list) const {
+    if (c.kind == Course::nothing) return DepthInterval{};
+    if (c.kind == Course::uncertain || !c.exact) return {};
+    const auto greatest = [&](const Layer& l) { return l.plane ? l.high : extreme(l, square, list, true); };
+    const auto least = [&](const Layer& l) { return l.plane ? l.low : extreme(l, square, list, false); };
+    if (c.kind == Course::point) {
+        if (c.first.low < c.first.high) return {};
+        return DepthInterval{c.first.low, c.first.low};
+    }
+    if (c.kind == Course::open && !c.followed) return DepthInterval{greatest(c.first), 1.0f};
+    if (c.kind == Course::open) {
+        if (!(c.first.high < just_before(c.last.low, 0.0f))) return {};
+        return DepthInterval{greatest(c.first), just_before(least(c.last), 0.0f)};
+    }
+    if (!(c.first.high <= c.last.low)) return {};
+    return DepthInterval{greatest(c.first), least(c.last)};
+}
+
+/// Extreme depth of a layer of several facets: facet by facet, leaving out those whose bounds cannot beat
+/// what was found; the most promising first.
+float Judge::extreme(const Layer& layer, const Square& square, std::span<const Listed> list,
+                     bool greatest) const {
+    const auto bound = [&](const Listed& l) { return greatest ? l.high : -l.low; };
+    std::vector<const Listed*> own;
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+        if (list[i].facet != no_facet && parent_[i] == layer.root) own.push_back(&list[i]);
+    }
+    const auto first = std::max_element(
+        own.begin(), own.end(), [&](const Listed* p, const Listed* q) { return bound(*p) < bound(*q); });
+    std::iter_swap(own.begin(), first);
+    float best = greatest ? -1.0f : 2.0f;
+    for (const Listed* l : own) {
+        if (bound(*l) <= (greatest ? best : -best)) continue;
+        best = extreme_depth(set_, set_.facets[l->facet], square, greatest, best);
+    }
+    return best;
+}
+
+namespace {
+
+std::int64_t floor_div(std::int64_t a, std::int64_t b) {
+    const std::int64_t q = a / b;
+    return q - (a % b != 0 && (a < 0) != (b < 0));
+}
+
+/// Columns of one row of texels that an outline covers.
+struct RowSpan {
+    std::int64_t first, last;
+};
+
+/// Narrows the span to where A x + rest >= 0, x = 256 column + 128.
+void narrow(RowSpan& span, std::int64_t A, std::int64_t rest) {
+    const std::int64_t at_zero = rest + A * 128, step = A * subtexel_one;
+    if (step > 0) {
+        span.first = std::max(span.first, -floor_div(at_zero, step));
+    } else if (step < 0) {
+        span.last = std::min(span.last, floor_div(at_zero, -step));
+    } else if (at_zero < 0) {
+        span.last = span.first - 1;
+    }
+}
+
+}  // namespace
+
+float extreme_depth(const FacetSet& set, const Facet& f, const Square& square, bool greatest, float best) {
+    const TriangleRecord& plane = set.plane(f);
+    EdgeFunction edge[4];
+    for (int k = 0; k < f.edges; ++k)
+        edge[k] = set.edge(f, k);
+    const std::int32_t x0 = std::max((f.x_low - 128 + 255) >> subtexel_bits, square.x0);
+    const std::int32_t x1 = std::min((f.x_high - 128) >> subtexel_bits, square.x0 + square.side - 1);
+    const std::int32_t y0 = std::max((f.y_low - 128 + 255) >> subtexel_bits, square.y0);
+    const std::int32_t y1 = std::min((f.y_high - 128) >> subtexel_bits, square.y0 + square.side - 1);
+    const auto better = [&](float z) { return greatest ? z > best : z < best; };
+    for (std::int32_t y = y0; y <= y1; ++y) {
+        // The depth is monotone along the row: its extreme is at one end of the span.
+        const DepthRange box = plane_range(plane, x0, x1, y, y);
+        if (!better(greatest ? box.high : box.low)) continue;
+        RowSpan span{x0, x1};
+        for (int k = 0; k < f.edges; ++k)
+            narrow(span, edge[k].A, edge[k].B * (std::int64_t{y} * subtexel_one + 128) + edge[k].C);
+        if (span.first > span.last) continue;
+        const bool right_end = (plane.a >= 0) == greatest;
+        const float z =
+            depth_at(plane, static_cast<double>(right_end ? span.last : span.first) + 0.5, y + 0.5);
+        if (better(z)) best = z;
+    }
+    return best;
+}
+
+}  // namespace obscura
