@@ -55,8 +55,11 @@ std::vector<Vec3d> area_vectors(const Mesh& mesh) {
 
 Plane plane_of(const Mesh& mesh, std::uint32_t t, Vec3d area) {
     const auto c = canonical_corners(mesh, t);
-    const Vec3d n = normalize(area);
-    return {n, -dot(n, (c[0] + c[1] + c[2]) * (1.0 / 3.0))};
+    // Divisions, not products with a rounded reciprocal: faces that look along an axis then get exactly that,
+    // and touching ones of different solids the same plane.
+    const double len = length(area);
+    const Vec3d n = len > 0 ? Vec3d{area.x / len, area.y / len, area.z / len} : Vec3d{0, 1, 0};
+    return {n, -(dot(n, c[0]) + dot(n, c[1]) + dot(n, c[2])) / 3.0};
 }
 
 bool lies_on(const std::array<Vec3d, 3>& c, Vec3d area, const Plane& plane, double seed_coordinate) {
