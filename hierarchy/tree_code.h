@@ -19,6 +19,8 @@ namespace obscura {
 
 /// Levels of the largest map (2^20 texels a side), and the root's.
 constexpr int max_tree_levels = 20;
+/// Levels of the largest top grid: 2^24 entries, 128 MiB.
+constexpr int max_top_levels = 12;
 
 enum class TreeLayout : std::uint32_t {
     words16 = 0,  ///< words, offsets of 16 bits: the paper's
@@ -28,8 +30,10 @@ enum class TreeLayout : std::uint32_t {
 
 /// One entry of the dense top grid: where a descent stands after its first levels.
 struct TopNode {
-    std::uint32_t node = 0;   ///< unit index of the inner node, or no_tree_node when the descent ended above
-    std::uint32_t value = 0;  ///< unit index of the last value on the way, this node's included
+    /// Unit index of the inner node of height levels - top_levels; no_tree_node when the descent ended above.
+    std::uint32_t node = 0;
+    /// Unit index of the last value on the way, this node's included: of the value itself, not its node.
+    std::uint32_t value = 0;
 };
 constexpr std::uint32_t no_tree_node = 0xffffffffu;
 

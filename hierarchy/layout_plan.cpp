@@ -1,0 +1,186 @@
+#include "hierarchy/layout_plan.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.h"
+
+namespace obscura {
+namespace {
+
+constexpr std::uint32_t empty_kind = static_cast<std::uint32_t>(ChildKind::empty);
+constexpr std::uint32_t leaf_kind = static_cast<std::uint32_t>(ChildKind::leaf);
+constexpr std::uint32_t full_kind = static_cast<std::uint32_t>(ChildKind::full);
+
+constexpr bool is_inner(std::uint32_t kind) {
+    return kind >= empty_kind;
+}
+
+/// Recursion is as deep as the tree is high: 20 at most.
+void collect(const MultiresTree& tree, const MultiresNode& node, int height, TreeShape& shape) {
+    CHECK(height > 0 || node.kinds == 0, "texels have no children");
+    shape.kinds[height].push_back(static_cast<std::uint8_t>(node.kinds));
+    const MultiresNode* child = tree.nodes.data() + node.first_child;
+    for (int i = 0; i < 4; ++i) {
+        const std::uint32_t kind = kind_of(node.kinds, i);
+        shape.counts.leaf += kind == leaf_kind;
+        shape.counts.empty += kind == empty_kind;
+        shape.counts.full += kind == full_kind;
+        if (is_inner(kind)) collect(tree, *child, height - 1, shape);
+        child += kind != 0;
+    }
+}
+
+constexpr std::uint64_t round_up(std::uint64_t distance, std::uint32_t scale) {
+    return scale == 1 ? distance : (distance + scale - 1) / scale * scale;
+}
+
+/// Units that are no node's, in the parent's block but not in the children's.
+std::uint64_t padding_of(const Family& family, const Placement& placement) {
+    std::uint64_t used = family.group_units;
+    for (int m = 0; m < family.count; ++m)
+        used += family.member[m].block;
+    return placement.end - used;
+}
+
+/// Distance from the first child with a block to that block, before rounding up.
+std::int64_t first_distance(const Family& family) {
+    return family.group_units - family.member[0].unit;
+}
+
+/// Padding of all families with one scale; nothing when an offset does not reach or `limit` is met.
+///
+/// The first block of a family follows its group, which is a few units long, so that a scale s costs at least
+/// s - first_distance there: `least` is the sum of that, known without looking. Families add what they waste
+/// beyond it.
+bool padding_below(const std::vector<Family>& families, std::uint32_t scale, std::uint32_t max_offset,
+                   std::int64_t least, std::int64_t limit, std::int64_t& padding) {
+    padding = least;
+    for (const Family& family : families) {
+        const Placement placement = place(family, scale);
+        if (placement.reach > std::uint64_t{max_offset} * scale) return false;
+        padding += static_cast<std::int64_t>(padding_of(family, placement)) -
+                   (std::int64_t{scale} - first_distance(family));
+        if (padding >= limit) return false;
+    }
+    return true;
+}
+
+/// All scales from the least that can reach, up to where `least` alone exceeds the best found. There is
+/// always a best: four roundings lengthen a distance d to less than d + 4s, so every s >= d / (max_offset -
+/// 4) serves.
+ScaleChoice search(const std::vector<Family>& families, std::uint64_t reach, std::uint32_t max_offset) {
+    std::int64_t firsts = 0;
+    for (const Family& family : families)
+        firsts += first_distance(family);
+    const auto count = static_cast<std::int64_t>(families.size());
+
+    ScaleChoice best;
+    std::int64_t best_padding = std::numeric_limits<std::int64_t>::max();
+    for (auto scale = static_cast<std::uint32_t>((reach + max_offset - 1) / max_offset);; ++scale) {
+        const std::int64_t least = count * scale - firsts;
+        if (least >= best_padding) break;
+        std::int64_t padding;
+        if (!padding_below(families, scale, max_offset, least, best_padding, padding)) continue;
+        best_padding = padding;
+        best = {scale, static_cast<std::uint64_t>(padding)};
+    }
+    return best;
+}
+
+/// Calls visit(family) for each node of `parents`.
+template <class Visit>
+void for_each_family(TreeLayout layout, std::span<const std::uint8_t> parents,
+                     std::span<const std::uint32_t> blocks, const Visit& visit) {
+    const KindUnits units = units_of_kinds(layout);
+    const std::uint32_t* next = blocks.data();
+    for (const std::uint8_t kinds : parents) {
+        const Family family = family_of(units, kinds, next);
+        next += family.inner;
+        visit(family);
+    }
+}
+
+}  // namespace
+
+TreeShape shape_of(const MultiresTree& tree) {
+    CHECK(tree.dimensions == 2 && tree.levels >= 0 && tree.levels <= max_tree_levels);
+    TreeShape shape;
+    shape.levels = tree.levels;
+    (tree.root.kinds == 0 ? shape.counts.leaf : shape.counts.full) = 1;
+    collect(tree, tree.root, tree.levels, shape);
+    // The root is stored as a full node, with children or without.
+    shape.kinds[tree.levels + 1].push_back(full_kind);
+    return shape;
+}
+
+Family family_of(const KindUnits& units, std::uint32_t kinds, const std::uint32_t* blocks) {
+    Family family;
+    for (int i = 0; i < 4; ++i) {
+        const std::uint32_t kind = kind_of(kinds, i);
+        if (is_inner(kind)) {
+            const Family::Member member{i, family.group_units, blocks[family.inner++]};
+            if (member.block > 0) {
+                int m = family.count++;
+                for (; m > 0 && family.member[m - 1].block > member.block; --m)
+                    family.member[m] = family.member[m - 1];
+                family.member[m] = member;
+            }
+        }
+        family.group_units += units[kind];
+    }
+    return family;
+}
+
+Placement place(const Family& family, std::uint32_t scale) {
+    Placement placement;
+    placement.end = family.group_units;
+    for (int m = 0; m < family.count; ++m) {
+        const Family::Member& member = family.member[m];
+        const std::uint64_t distance = round_up(placement.end - member.unit, scale);
+        placement.reach = std::max(placement.reach, distance);
+        placement.start[m] = member.unit + distance;
+        placement.end = placement.start[m] + member.block;
+    }
+    return placement;
+}
+
+ScaleChoice best_scale(TreeLayout layout, std::span<const std::uint8_t> parents,
+                       std::span<const std::uint32_t> blocks, std::uint32_t max_offset) {
+    CHECK(max_offset >= 15);
+    std::uint64_t reach = 0;
+    for_each_family(layout, parents, blocks,
+                    [&](const Family& family) { reach = std::max(reach, place(family, 1).reach); });
+    if (reach <= max_offset) return {};
+
+    std::vector<Family> families;
+    for_each_family(layout, parents, blocks, [&](const Family& family) {
+        if (family.count > 0) families.push_back(family);
+    });
+    return search(families, reach, max_offset);
+}
+
+LayoutPlan plan_layout(const TreeShape& shape, TreeLayout layout, std::uint32_t max_offset,
+                       std::uint64_t max_units) {
+    CHECK(max_units <= max_tree_units);
+    LayoutPlan plan;
+    plan.layout = layout;
+    plan.blocks[0].assign(shape.kinds[0].size(), 0);
+    for (int height = 0; height <= shape.levels; ++height) {
+        const std::vector<std::uint8_t>& parents = shape.kinds[height + 1];
+        const ScaleChoice choice = best_scale(layout, parents, plan.blocks[height], max_offset);
+        plan.scale[height] = choice.scale;
+        plan.padding += choice.padding;
+        plan.blocks[height + 1].reserve(parents.size());
+        for_each_family(layout, parents, plan.blocks[height], [&](const Family& family) {
+            const std::uint64_t units = place(family, choice.scale).end;
+            plan.fits = plan.fits && units <= max_units;
+            plan.blocks[height + 1].push_back(static_cast<std::uint32_t>(units));
+        });
+        if (!plan.fits) return plan;
+    }
+    plan.units = plan.blocks[shape.levels + 1].front();
+    return plan;
+}
+
+}  // namespace obscura
