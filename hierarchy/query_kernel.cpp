@@ -120,7 +120,7 @@ OBSCURA_INLINE F32 stored_of_block(const TreeCode& tree, const std::uint8_t* bas
     const int parted = common_height(united_bits(apart));
     const int height = parted > level ? parted : level;
     const TopNode place = extend_path<Units>(tree, x0, y0, height, path);
-    if (height == level || place.node == no_tree_node) return splat(tree_value<Units>(tree, place.value));
+    if (height == level || place.node == no_tree_node) return splat(unit_value<Units>(tree, place.value));
     Descents16 d = descents_from(place, inside);
     descend_to<Units>(tree, base, height, level, g.x, g.y, d);
     return values<Units>(base, d);

@@ -12,7 +12,7 @@ float value_of(const TreeCode& tree, std::int32_t x, std::int32_t y, int level) 
     TopNode place = tree_root<Units>();
     for (int height = tree.levels; height > level && place.node != no_tree_node; --height)
         place = tree_child<Units>(tree, place, height, x, y);
-    return tree_value<Units>(tree, place.value);
+    return unit_value<Units>(tree, place.value);
 }
 
 }  // namespace

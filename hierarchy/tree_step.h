@@ -45,7 +45,7 @@ OBSCURA_TREE_INLINE std::uint32_t tree_unit(const TreeCode& tree, std::uint32_t 
 }
 
 template <class Units>
-OBSCURA_TREE_INLINE float tree_value(const TreeCode& tree, std::uint32_t at) {
+OBSCURA_TREE_INLINE float unit_value(const TreeCode& tree, std::uint32_t at) {
     const std::uint32_t word = tree_unit<Units>(tree, at);
     float value;
     __builtin_memcpy(&value, &word, sizeof value);

@@ -8,18 +8,16 @@
 #include <random>
 
 #include "core/isa.h"
+#include "hierarchy/decode.h"
 #include "hierarchy/query.h"
 #include "hierarchy/tree_step.h"
 #include "raster/interval_map.h"
 #include "raster/view.h"
 #include "raster_solids.h"
-#include "small_tree_code.h"
+#include "tree_oracle.h"
 
 namespace obscura {
 namespace {
-
-using small_tree::SmallTree;
-using small_tree::value_at_level;
 
 Image<DepthInterval> scene_intervals(std::uint32_t seed, int side) {
     const Mesh mesh = solids::random_solids(seed, 40, seed % 2 == 0, false);
@@ -36,24 +34,6 @@ Image<DepthInterval> random_intervals(std::uint32_t seed, int side) {
         i = rng() % 4 == 0 ? DepthInterval{entry / 16.0f, exit / 16.0f} : DepthInterval{0.0f, 0.75f};
     }
     return map;
-}
-
-/// The dense top grid, by the scalar step.
-void add_top_grid(SmallTree& tree, int levels) {
-    const int side = 1 << levels, below = tree.code.levels - levels;
-    tree.top.clear();
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            with_layout(tree.code, [&]<class Units>(Units) {
-                TopNode place = tree_root<Units>();
-                for (int h = tree.code.levels; h > below && place.node != no_tree_node; --h)
-                    place = tree_child<Units>(tree.code, place, h, x << below, y << below);
-                tree.top.push_back(place);
-            });
-        }
-    }
-    tree.code.top = tree.top.data();
-    tree.code.top_levels = levels;
 }
 
 /// Points of a map of `size` texels: everywhere, some outside, runs of neighbours.
@@ -130,11 +110,12 @@ TEST_P(Layouts, FindTheValuesOfThePlainDescentAtEveryLevel) {
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
         for (const Image<DepthInterval>& map : {scene_intervals(seed, 128), random_intervals(seed, 64)}) {
             const MultiresTree tree = build_bottom_up(map.view());
-            for (const std::uint32_t scale : {0u, 3u}) {
-                SmallTree code = small_tree::encode(tree, GetParam(), scale);
+            for (const int offset_bits : {0, 9}) {
+                ShadowTree code = encode_tree(tree, {}, {GetParam(), 0, offset_bits, 1e9});
+                ASSERT_EQ(code.code.layout, GetParam());
                 expect_lookups(tree, code.code, 517, seed);
                 for (const int top : {1, 4, tree.levels}) {
-                    add_top_grid(code, top);
+                    set_top_grid(code, top);
                     expect_lookups(tree, code.code, 230, seed + 10);
                 }
             }
@@ -146,10 +127,10 @@ TEST_P(Layouts, HoldTreesOfOneNodeAndMapsOfOneTexel) {
     for (const int side : {1, 2, 64}) {
         const Image<DepthInterval> background(side, side, DepthInterval{0.25f, 0.5f});
         const MultiresTree tree = build_bottom_up(background.view());
-        SmallTree code = small_tree::encode(tree, GetParam());
+        ShadowTree code = encode_tree(tree, {}, {GetParam()});
         for (const std::size_t count : {std::size_t{1}, std::size_t{16}, std::size_t{33}})
             expect_lookups(tree, code.code, count, 5);
-        add_top_grid(code, tree.levels);
+        set_top_grid(code, tree.levels);
         expect_lookups(tree, code.code, 40, 6);
     }
 }
@@ -158,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(Query, Layouts,
 
 TEST(Query, NoPointsAreNoWork) {
     const Image<DepthInterval> background(8, 8);
-    const SmallTree code = small_tree::encode(build_bottom_up(background.view()), TreeLayout::words24);
+    const ShadowTree code = encode_tree(build_bottom_up(background.view()), {});
     for (const Isa isa : supported_isas()) {
         std::uint16_t lit = 77;
         OBSCURA_DISPATCH(isa, visibility, code.code, MapPoints{}, 0, &lit);
@@ -167,27 +148,28 @@ TEST(Query, NoPointsAreNoWork) {
     }
 }
 
-TEST(Query, UnitIndicesUseAllThirtyTwoBits) {
-    // A node far beyond 2^31 units: memory that is never there but for the pages that are read. The units
-    // begin so far before two small pieces that the sum of indices lands in them.
+TEST(Query, NodesMayStandBeyondTwoToThe31Units) {
+    // Nodes that the top grid names by large indices, and units that begin as far before them: only what is
+    // read needs to be there.
     const Image<DepthInterval> map = random_intervals(4, 32);
     const MultiresTree tree = build_bottom_up(map.view());
-    const SmallTree code = small_tree::encode(tree, TreeLayout::words24);
-    // The top grid names nodes by index: shift them all by 3 x 2^30 units, and the base back by as much.
+    ShadowTree encoded = encode_tree(tree, {});
+    set_top_grid(encoded, 2);
     constexpr std::uint32_t shift = 3u << 30;
-    SmallTree far = small_tree::encode(tree, TreeLayout::words24);
-    add_top_grid(far, 2);
-    for (TopNode& t : far.top) {
+    std::vector<TopNode> top = *encoded.top;
+    for (TopNode& t : top) {
         t.node = t.node == no_tree_node ? t.node : t.node + shift;
         t.value += shift;
     }
-    far.code.units = reinterpret_cast<const std::uint8_t*>(reinterpret_cast<std::uintptr_t>(far.bits.data()) -
-                                                           std::uintptr_t{shift} * 4);
+    TreeCode far = encoded.code;
+    far.top = top.data();
+    far.units = reinterpret_cast<const std::uint8_t*>(reinterpret_cast<std::uintptr_t>(far.units) -
+                                                      std::uintptr_t{shift} * 4);
     const Points in = random_points(1, 32, 400, true);
     for (const Isa isa : supported_isas()) {
         if (isa == Isa::ref) continue;  // starts at the root, which stands at unit 0
         std::vector<float> value(400);
-        OBSCURA_DISPATCH(isa, stored_values, far.code, in.x.data(), in.y.data(), 400, 0, value.data());
+        OBSCURA_DISPATCH(isa, stored_values, far, in.x.data(), in.y.data(), 400, 0, value.data());
         for (std::size_t i = 0; i < 400; ++i) {
             ASSERT_EQ(value[i], value_at(tree, static_cast<std::uint32_t>(in.x[i]),
                                          static_cast<std::uint32_t>(in.y[i])));
@@ -198,7 +180,7 @@ TEST(Query, UnitIndicesUseAllThirtyTwoBits) {
 TEST(Query, APathVisitsOnlyWhatIsNew) {
     const Image<DepthInterval> map = random_intervals(9, 64);
     const MultiresTree tree = build_bottom_up(map.view());
-    const SmallTree code = small_tree::encode(tree, TreeLayout::words24);
+    const ShadowTree code = encode_tree(tree, {});
     using Units = TreeUnits<TreeLayout::words24>;
     TreePath path;
     start_path<Units>(code.code, path);
