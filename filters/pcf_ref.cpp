@@ -12,14 +12,6 @@
 namespace obscura::ref {
 namespace {
 
-/// The receiver in map space.
-struct Receiver {
-    bool before_near = false;
-    double X = 0, Y = 0;
-    float depth = 0;
-    float slope_x = 0, slope_y = 0;  ///< of its plane: depth per texel
-};
-
 /// Which way the light is, not normalised.
 Vec3f towards(const PcfLight& light, Vec3f p) {
     if (light.directional) return {light.to_light[0], light.to_light[1], light.to_light[2]};
@@ -54,11 +46,11 @@ Moved move(const PcfLight& light, Vec3f p, Vec3f n, Vec3f to_light, bool open) {
     return m;
 }
 
-Receiver place(const PcfView& view, const Moved& p) {
-    Receiver r;
+PcfPlace place(const PcfView& view, const Moved& p) {
+    PcfPlace r;
     const double w = p.row(view.to_map[3]);
     const double inv = view.perspective ? 1.0 / w : 1.0;
-    r.before_near = view.perspective && !(w >= view.near_w);
+    r.kind = view.perspective && !(w >= view.near_w) ? PcfPlace::before_near : PcfPlace::on_map;
     // Far off the map any place will do, as long as its number fits an integer.
     const double low = -8.0, high = static_cast<double>(view.size) + 8.0;
     r.X = lane_min(lane_max(p.row(view.to_map[0]) * inv, low), high);
@@ -87,7 +79,7 @@ std::int64_t block_index(std::int64_t x, std::int64_t y, std::int64_t size) {
 /// Calls tap(x, y, depth, weight_x) for each texel of the kernel, with the depth of the receiver's plane at
 /// its centre, and returns the filtered visibility.
 template <class Tap>
-float filtered(const Receiver& r, int side, Tap&& tap) {
+float filtered(const PcfPlace& r, int side, Tap&& tap) {
     // Place on a grid of 1/256 texel: the sums below are then exact, and full light is exactly 1.
     const auto x256 = static_cast<std::int32_t>(std::nearbyint(r.X * 256.0));
     const auto y256 = static_cast<std::int32_t>(std::nearbyint(r.Y * 256.0));
@@ -116,29 +108,39 @@ float filtered(const Receiver& r, int side, Tap&& tap) {
 
 }  // namespace
 
-PcfTrace trace_pcf(const SurfaceBlock& s, const PcfLight& light, int at) {
-    PcfTrace trace;
+PcfPlace pcf_place(const SurfaceBlock& s, const PcfLight& light, int at) {
+    PcfPlace nowhere;
     const int group = at / 16;
     const std::uint32_t bit = 1u << (at & 15);
-    if ((s.covered[group] & bit) == 0) return trace;
+    if ((s.covered[group] & bit) == 0) return nowhere;
 
     // A face that looks away from the light is dark: no lookup.
     const Vec3f p = {s.px[at], s.py[at], s.pz[at]}, g = {s.gx[at], s.gy[at], s.gz[at]};
     const Vec3f l = towards(light, p);
     const float cosine = dot(g, l);
-    if (!(0.0f < cosine) && (s.thin[group] & bit) == 0) return trace;
+    nowhere.kind = PcfPlace::turned_away;
+    if (!(0.0f < cosine) && (s.thin[group] & bit) == 0) return nowhere;
 
     const Moved receiver = move(light, p, cosine < 0.0f ? -g : g, l, (s.open[group] & bit) != 0);
-    trace.view = light.views == 6 ? cube_face(-receiver.to_light) : 0;
-    const PcfView& view = light.view[trace.view];
-    const Receiver r = place(view, receiver);
+    const int face = light.views == 6 ? cube_face(-receiver.to_light) : 0;
+    PcfPlace r = place(light.view[face], receiver);
+    r.view = face;
+    return r;
+}
+
+PcfTrace trace_pcf(const SurfaceBlock& s, const PcfLight& light, int at) {
+    PcfTrace trace;
+    const PcfPlace r = pcf_place(s, light, at);
+    if (r.kind == PcfPlace::nothing_there || r.kind == PcfPlace::turned_away) return trace;
+    trace.view = r.view;
     trace.X = r.X;
     trace.Y = r.Y;
     trace.depth = r.depth;
-    if (r.before_near) {
+    if (r.kind == PcfPlace::before_near) {
         trace.visibility = 1.0f;
         return trace;
     }
+    const PcfView& view = light.view[r.view];
     trace.looked_up = true;
     const std::int32_t last = view.size - 1;
     trace.visibility =

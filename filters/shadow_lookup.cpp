@@ -30,8 +30,8 @@ void set_slopes(const LightView& view, PcfView& v) {
     set(v.slope_y, slope(1));
 }
 
-PcfView pcf_view(const LightView& view, const StoredDepths& stored, Vec3d eye, double offset_texels) {
-    CHECK(view.width == view.height && stored.size == view.width);
+PcfView pcf_view(const LightView& view, Vec3d eye, double offset_texels) {
+    CHECK(view.width == view.height);
     PcfView v{};
     for (int r = 0; r < 4; ++r) {
         const auto& m = view.to_map.m[r];
@@ -39,7 +39,6 @@ PcfView pcf_view(const LightView& view, const StoredDepths& stored, Vec3d eye, d
             v.to_map[r][c] = m[c];
         v.to_map[r][3] = (m[0] * eye.x + m[1] * eye.y) + (m[2] * eye.z + m[3]);
     }
-    v.stored = stored.depth.data();
     v.size = view.width;
     v.perspective = view.perspective;
     v.near_w = view.near_w;
@@ -50,17 +49,25 @@ PcfView pcf_view(const LightView& view, const StoredDepths& stored, Vec3d eye, d
 
 }  // namespace
 
-PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye) {
-    CHECK(map.views.size() == 1 || map.views.size() == 6);
+PcfLight pcf_light(const Light& light, std::span<const LightView> views, Vec3d eye) {
+    CHECK(views.size() == 1 || views.size() == 6);
     PcfLight p;
-    p.views = static_cast<std::int32_t>(map.views.size());
-    for (std::size_t i = 0; i < map.views.size(); ++i) {
-        p.view[i] = pcf_view(map.views[i], map.stored[i], eye, light.shadow.normal_offset_texels);
-    }
+    p.views = static_cast<std::int32_t>(views.size());
+    for (std::size_t i = 0; i < views.size(); ++i)
+        p.view[i] = pcf_view(views[i], eye, light.shadow.normal_offset_texels);
     p.side = light.shadow.filter_px;
     p.directional = light.kind == LightKind::directional || light.kind == LightKind::sun;
     set(p.to_light, to_float(-normalize(light.direction)));
     set(p.position, to_float(light.position - eye));
+    return p;
+}
+
+PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye) {
+    PcfLight p = pcf_light(light, std::span(map.views), eye);
+    for (std::size_t i = 0; i < map.views.size(); ++i) {
+        CHECK(map.stored[i].size == p.view[i].size);
+        p.view[i].stored = map.stored[i].depth.data();
+    }
     return p;
 }
 
