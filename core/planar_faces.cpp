@@ -53,13 +53,26 @@ std::vector<Vec3d> area_vectors(const Mesh& mesh) {
     return areas;
 }
 
+double round_to(double step, double value) {
+    return std::nearbyint(value / step) * step;
+}
+
+/// Faces of different solids that touch come from different corners, so their planes would differ by
+/// rounding, and which of the two is nearer would change from texel to texel. Planes are therefore taken from
+/// a grid: coarser than the rounding of this calculation by 2^16, finer than that of the corners' own
+/// coordinates by 2^4 or more.
 Plane plane_of(const Mesh& mesh, std::uint32_t t, Vec3d area) {
+    constexpr double grid = 0x1p-36;
     const auto c = canonical_corners(mesh, t);
-    // Divisions, not products with a rounded reciprocal: faces that look along an axis then get exactly that,
-    // and touching ones of different solids the same plane.
+    // Divisions, not products with a rounded reciprocal: faces that look along an axis get exactly that.
     const double len = length(area);
-    const Vec3d n = len > 0 ? Vec3d{area.x / len, area.y / len, area.z / len} : Vec3d{0, 1, 0};
-    return {n, -(dot(n, c[0]) + dot(n, c[1]) + dot(n, c[2])) / 3.0};
+    Vec3d n = len > 0 ? Vec3d{area.x / len, area.y / len, area.z / len} : Vec3d{0, 1, 0};
+    n = {round_to(grid, n.x), round_to(grid, n.y), round_to(grid, n.z)};
+    // The step for distances is that of a power of 256 metres, so that faces of one size of scene share it.
+    double scale = 0x1p-64;
+    while (scale < largest_coordinate(c))
+        scale *= 256.0;
+    return {n, round_to(grid * scale, -(dot(n, c[0]) + dot(n, c[1]) + dot(n, c[2])) / 3.0)};
 }
 
 bool lies_on(const std::array<Vec3d, 3>& c, Vec3d area, const Plane& plane, double seed_coordinate) {

@@ -132,15 +132,17 @@ void Judge::gather(const Square& square, std::span<Listed> list) {
     });
 }
 
-/// Whether p lies before q at every texel, or at the same depth with its crossing first. Their distance is
-/// affine; where it exceeds the rounding at the corners, it does so everywhere between. Rounding to equality
-/// would already be too much: equal depths count entries first.
+/// Whether p comes before q at every texel. The distance of two planes is affine: what it exceeds at the
+/// corners it exceeds everywhere between. Rounding to float keeps the order of depths but may make them
+/// equal, which is well unless p is an exit and q an entry: equal, they would change places.
 bool Judge::certain_order(const Layer& p, const Layer& q, const Square& square) const {
+    const bool may_be_equal = p.crossing <= q.crossing;
+    if (p.high < q.low || (may_be_equal && p.high <= q.low)) return true;
     const Corners at(square);
     const TriangleRecord &s = *p.plane, &t = *q.plane;
     const bool same = s.a == t.a && s.b == t.b && s.c == t.c;
-    if (same && p.crossing > q.crossing) return false;
-    const double step = ulp(std::max(p.high, q.high));
+    if (same && !may_be_equal) return false;
+    const double margin = may_be_equal ? 0.0 : static_cast<double>(ulp(std::max(p.high, q.high)));
     for (const double X : at.X) {
         for (const double Y : at.Y) {
             const double zs = s.a * X + (s.b * Y + s.c), zt = t.a * X + (t.b * Y + t.c);
@@ -149,7 +151,7 @@ bool Judge::certain_order(const Layer& p, const Layer& q, const Square& square) 
             if (fs < s.zmin || fs > s.zmax || ft < t.zmin || ft > t.zmax) return false;
             const double terms = std::fabs(s.a * X) + std::fabs(s.b * Y) + std::fabs(s.c) +
                                  std::fabs(t.a * X) + std::fabs(t.b * Y) + std::fabs(t.c);
-            if (!same && !(zt - zs > 2.0 * step + 8.0 * std::numeric_limits<double>::epsilon() * terms))
+            if (!same && !(zt - zs > margin + 8.0 * std::numeric_limits<double>::epsilon() * terms))
                 return false;
         }
     }
@@ -167,8 +169,7 @@ bool Judge::put_in_order(std::span<Layer> cluster, const Square& square) const {
         return std::tie(zp, p.crossing, p.root) < std::tie(zq, q.crossing, q.root);
     });
     for (std::size_t i = 1; i < cluster.size(); ++i) {
-        const Layer &p = cluster[i - 1], &q = cluster[i];
-        if (!(p.high < q.low) && !certain_order(p, q, square)) return false;
+        if (!certain_order(cluster[i - 1], cluster[i], square)) return false;
     }
     return true;
 }
