@@ -157,24 +157,36 @@ void sync_directory(const fs::path& directory) {
     }
 }
 
-void write_directly(const fs::path& path, std::string_view bytes) {
+/// 0 or the error of the first write that failed.
+int write_parts(int fd, std::span<const std::string_view> parts) {
+    int error = 0;
+    for (std::size_t i = 0; i < parts.size() && !error; ++i)
+        error = write_all(fd, parts[i]);
+    return error;
+}
+
+void write_directly(const fs::path& path, std::span<const std::string_view> parts) {
     Descriptor out(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     if (out.fd < 0) fail(path, "cannot be opened", errno);
-    if (const int error = write_all(out.fd, bytes)) fail(path, "cannot be written", error);
+    if (const int error = write_parts(out.fd, parts)) fail(path, "cannot be written", error);
     if (const int error = out.close()) fail(path, "cannot be written", error);
 }
 
 }  // namespace
 
 void write_file_atomically(const fs::path& path, std::string_view bytes, Existing existing) {
-    if (check_target(path, existing) == Target::special) return write_directly(path, bytes);
+    write_file_atomically(path, std::span(&bytes, 1), existing);
+}
+
+void write_file_atomically(const fs::path& path, std::span<const std::string_view> parts, Existing existing) {
+    if (check_target(path, existing) == Target::special) return write_directly(path, parts);
     const fs::path target = behind_links(path);
     const fs::path temporary = temporary_beside(target);
     const Pending pending(temporary.string());
 
     Descriptor out(create_exclusively(temporary));
     if (out.fd < 0) fail(path, "cannot be created", errno);
-    int error = write_all(out.fd, bytes);
+    int error = write_parts(out.fd, parts);
     if (!error && ::fsync(out.fd) != 0) error = errno;
     const int close_error = out.close();
     if (!error) error = close_error;

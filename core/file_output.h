@@ -2,6 +2,7 @@
 // Output files that are either complete or not there.
 
 #include <filesystem>
+#include <span>
 #include <string_view>
 
 namespace obscura {
@@ -14,6 +15,10 @@ enum class Existing { refuse, replace };
 /// untouched, and OutputError names the file and the reason. A target that is not a regular file
 /// (/dev/stdout, a pipe) is written directly; a symbolic link is followed.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           Existing existing = Existing::refuse);
+
+/// The same for contents in several parts, one behind the other: large ones need not be joined in memory.
+void write_file_atomically(const std::filesystem::path& path, std::span<const std::string_view> parts,
                            Existing existing = Existing::refuse);
 
 /// Throws the OutputError that write_file_atomically() would meet for reasons already visible: the directory

@@ -46,6 +46,13 @@ constexpr std::uint32_t units_before(const KindUnits& units, std::uint32_t kinds
     return sum;
 }
 
+/// Units of a tree's nodes without padding; a tree of one node, a leaf by count, is stored as a full one.
+constexpr std::uint64_t node_units(TreeLayout layout, const MultiresCounts& counts) {
+    const KindUnits units = units_of_kinds(layout);
+    if (counts.full == 0) return units[3];
+    return units[1] * counts.leaf + units[2] * counts.empty + units[3] * counts.full;
+}
+
 /// First byte of a unit, beyond 4 GiB too.
 constexpr std::size_t byte_of_unit(TreeLayout layout, std::uint64_t unit) {
     return static_cast<std::size_t>(unit) * unit_bytes(layout);
