@@ -1,9 +1,7 @@
-// The recursion (J. Warnock, "A Hidden Surface Algorithm for Computer Generated Halftone Pictures", 1969): a
-// square that is not decided hands each of its quadrants the facets that reach into it.
+// The upper levels of the recursion, in parallel; what lies below them is a SquareBuilder's.
 
 #include "hierarchy/build.h"
 
-#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <memory>
@@ -11,194 +9,14 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "hierarchy/block.h"
-#include "hierarchy/certificate.h"
-#include "hierarchy/combine.h"
-#include "hierarchy/facets.h"
-#include "raster/interval_map.h"
+#include "hierarchy/square_builder.h"
 
 namespace obscura {
 namespace {
 
-using Quadtree = MultiresBuilder<2>;
-using Part = Quadtree::Part;
+using Quadtree = SquareBuilder::Quadtree;
+using Part = SquareBuilder::Part;
 using Clock = std::chrono::steady_clock;
-
-/// A square on the way down: what is needed of it.
-struct Site {
-    Square square;
-    std::uint64_t morton = 0;  ///< place among the squares of its size
-    int height = 0;            ///< log2 of its side
-    bool whole = true;         ///< everything in it is needed; else `needed` says what
-    NeededNodes::Codes needed;
-
-    Site child(int i) const {
-        Site c{square.child(i), morton * 4 + static_cast<std::uint64_t>(i), height - 1, whole, {}};
-        if (!whole) {
-            c.needed = NeededNodes::inside_child(needed, c.morton, c.height);
-            c.whole = NeededNodes::asks_for_all(c.needed, c.morton, c.height);
-        }
-        return c;
-    }
-    bool not_needed() const { return !whole && needed.empty(); }
-    bool value_only() const {
-        constexpr std::size_t few =
-            64;  // longer runs are seldom of this kind; keeping the nodes does no harm
-        return !needed.empty() && needed.size() <= few &&
-               NeededNodes::asks_for_value_only(needed, morton, height);
-    }
-};
-
-/// Takes part in nothing: any depth will do (the paper's placeholder, section 4).
-constexpr DepthInterval any_depth{0.0f, 1.0f};
-
-/// Square side from which on long lists are rasterized as a tile, and how long that is: facets of few texels
-/// each cost less there than their way through further divisions.
-constexpr std::int32_t widest_tile = layer_tile_side;
-bool dense(std::int32_t side, std::size_t count) {
-    if (side > widest_tile) return false;
-    return side <= 16 ? count > block_facets
-                      : count > static_cast<std::size_t>(side) * static_cast<std::size_t>(side) / 16;
-}
-
-/// Builds the part of the tree below one square, depth first.
-class Worker {
-  public:
-    Worker(const FacetSet& set, const BuildParams& params, Isa isa)
-        : set_(set), params_(params), isa_(isa), judge_(set, params.receivers, params.mesh_certificate) {}
-
-    /// What is known of a square before it is divided.
-    std::optional<Part> decide(const Site& site, std::vector<Listed>& list, std::size_t begin,
-                               float& deepest) {
-        ++stats.nodes_visited;
-        if (site.not_needed()) return done(site, BuildSquare::not_needed, any_depth);
-        if (list.size() == begin) return done(site, BuildSquare::nothing, DepthInterval{});
-        const Verdict verdict = judge_.judge(site.square, list, begin);
-        deepest = std::min(deepest, verdict.deepest);
-        if (!verdict.common) return {};
-        ++(verdict.by_mesh ? stats.certified_mesh : stats.certified_cover);
-        return done(site, verdict.by_mesh ? BuildSquare::mesh : BuildSquare::cover, *verdict.common);
-    }
-
-    /// Appends to `to` what of list[begin, end) reaches into `square` and begins before `deepest`.
-    void hand_down(const std::vector<Listed>& list, std::size_t begin, std::size_t end, float deepest,
-                   const Square& square, std::vector<Listed>& to) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const Listed l = list[i];  // a copy: `to` may be the same vector
-            if (l.low > deepest) continue;
-            ++stats.list_operations;
-            const std::optional<Listed> placed = place(set_, l.facet, l.crossed, square);
-            if (placed) to.push_back(*placed);
-        }
-    }
-
-    Part build(const Site& site, const std::vector<Listed>& list) {
-        list_.assign(list.begin(), list.end());
-        return visit(site, 0);
-    }
-
-    Quadtree tree;
-    BuildStats stats;
-    std::vector<BuildSquare> trace;
-
-  private:
-    Part done(const Site& site, BuildSquare::Fate fate, DepthInterval interval) {
-        note(site, fate);
-        return Quadtree::texel(interval);
-    }
-    void note(const Site& site, BuildSquare::Fate fate) {
-        if (params_.trace != nullptr)
-            trace.push_back({fate, site.square.x0, site.square.y0, site.square.side});
-    }
-
-    /// The square's list is list_ from `begin` to its end.
-    Part visit(const Site& site, std::size_t begin) {
-        float deepest = 2.0f;
-        if (const std::optional<Part> part = decide(site, list_, begin, deepest)) return *part;
-        const std::size_t end = list_.size(), mark = tree.nodes.size();
-        Part part;
-        if (dense(site.square.side, end - begin)) {
-            part = rasterize_tile(site, begin);
-        } else if (site.square.side <= block_side) {
-            part = rasterize_block(site, begin);
-        } else {
-            note(site, BuildSquare::divided);
-            Part child[4];
-            for (int i = 0; i < 4; ++i) {
-                const Site quadrant = site.child(i);
-                if (!quadrant.not_needed()) hand_down(list_, begin, end, deepest, quadrant.square, list_);
-                child[i] = visit(quadrant, end);
-                list_.resize(end);
-            }
-            part = tree.join(child);
-        }
-        if (site.value_only()) {
-            part.kinds = 0;
-            tree.nodes.resize(mark);
-        }
-        return part;
-    }
-
-    Part rasterize_block(const Site& site, std::size_t begin) {
-        note(site, BuildSquare::rasterized);
-        const Square& s = site.square;
-        stats.texels_rasterized += static_cast<std::uint64_t>(s.side) * static_cast<std::uint64_t>(s.side);
-        records_.clear();
-        for (std::size_t i = begin; i < list_.size(); ++i)
-            records_.push_back(set_.facets[list_[i].facet].record);
-        alignas(64) float entry[block_texels], exit[block_texels];
-        OBSCURA_DISPATCH(isa_, block_intervals, set_.setup.records.data(), records_.data(), records_.size(),
-                         s.x0, s.y0, params_.receivers == Receivers::static_only, entry, exit);
-        return reduce(entry, exit, s.side * s.side);
-    }
-
-    /// The bottom-up construction over `count` texels in Morton order.
-    Part reduce(const float* entry, const float* exit, int count) {
-        float low = entry[0], high = exit[0];
-        for (int i = 1; i < count; ++i) {
-            low = std::max(low, entry[i]);
-            high = std::min(high, exit[i]);
-        }
-        if (low <= high) return Quadtree::texel({low, high});
-        const int quarter = count / 4;
-        Part child[4];
-        for (int i = 0; i < 4; ++i)
-            child[i] = reduce(entry + i * quarter, exit + i * quarter, quarter);
-        return tree.join(child);
-    }
-
-    Part rasterize_tile(const Site& site, std::size_t begin) {
-        note(site, BuildSquare::rasterized);
-        const Square& s = site.square;
-        stats.texels_rasterized += static_cast<std::uint64_t>(s.side) * static_cast<std::uint64_t>(s.side);
-        records_.clear();
-        for (std::size_t i = begin; i < list_.size(); ++i)
-            records_.push_back(set_.facets[list_[i].facet].record);
-        const TileRect rect{s.x0, s.y0, std::max(s.side, 16), s.side};
-        intervals_.resize(layer_tile_texels);
-        tiler_.run(set_.setup, records_, rect, params_.receivers, isa_, intervals_.data());
-        return reduce_rows(intervals_.data(), rect.width, s.side);
-    }
-
-    /// The same over rows of `stride` texels.
-    Part reduce_rows(const DepthInterval* rows, int stride, int side) {
-        if (side == 1) return Quadtree::texel(rows[0]);
-        const int half = side / 2;
-        const Part child[4] = {reduce_rows(rows, stride, half), reduce_rows(rows + half, stride, half),
-                               reduce_rows(rows + half * stride, stride, half),
-                               reduce_rows(rows + half * stride + half, stride, half)};
-        return tree.join(child);
-    }
-
-    const FacetSet& set_;
-    const BuildParams& params_;
-    Isa isa_;
-    Judge judge_;
-    IntervalTiler tiler_;
-    std::vector<Listed> list_;  ///< the lists of all squares on the way down, one after the other
-    std::vector<std::uint32_t> records_;
-    std::vector<DepthInterval> intervals_;
-};
 
 void add(BuildStats& to, const BuildStats& s) {
     to.nodes_visited += s.nodes_visited;
@@ -259,7 +77,7 @@ class Forest {
                 worker_ = std::move(f.idle_.back());
                 f.idle_.pop_back();
             } else {
-                worker_ = std::make_unique<Worker>(f.set_, f.params_, f.exec_.isa);
+                worker_ = std::make_unique<SquareBuilder>(f.set_, f.params_, f.exec_.isa);
             }
         }
         ~Lease() {
@@ -268,11 +86,11 @@ class Forest {
             worker_->stats = {};
             forest_.idle_.push_back(std::move(worker_));
         }
-        Worker* operator->() { return worker_.get(); }
+        SquareBuilder* operator->() { return worker_.get(); }
 
       private:
         Forest& forest_;
-        std::unique_ptr<Worker> worker_;
+        std::unique_ptr<SquareBuilder> worker_;
     };
 
     bool cancelled() const { return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed); }
@@ -306,10 +124,7 @@ class Forest {
             if (node.part) return;
             Lease worker(*this);
             node.part = worker->decide(node.site, node.list, 0, node.deepest);
-            if (!node.part && params_.trace != nullptr) {
-                const Square& s = node.site.square;
-                worker->trace.push_back({BuildSquare::divided, s.x0, s.y0, s.side});
-            }
+            if (!node.part) worker->note(node.site, BuildSquare::divided);
             node.trace = std::exchange(worker->trace, {});
         });
         for (std::size_t i = begin; i < end; ++i) {
@@ -386,7 +201,7 @@ class Forest {
     std::vector<std::size_t> parents_;  ///< of node i at i - 1
     std::size_t lowest_ = 0;            ///< where the lowest level begins
     std::mutex mutex_;
-    std::vector<std::unique_ptr<Worker>> idle_;
+    std::vector<std::unique_ptr<SquareBuilder>> idle_;
 };
 
 double seconds_since(Clock::time_point begin) {

@@ -1,0 +1,156 @@
+#include "hierarchy/square_builder.h"
+
+#include <algorithm>
+
+#include "raster/layer_tile.h"
+
+namespace obscura {
+namespace {
+
+/// Whether a square's list is so long that rasterizing it as one tile costs less than the facets' way through
+/// further divisions.
+bool dense(std::int32_t side, std::size_t count) {
+    if (side > layer_tile_side) return false;
+    const auto texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
+    return count > (side <= 16 ? block_facets : texels / 16);
+}
+
+}  // namespace
+
+Site Site::child(int i) const {
+    Site c{square.child(i), morton * 4 + static_cast<std::uint64_t>(i), height - 1, whole, {}};
+    if (!whole) {
+        c.needed = NeededNodes::inside_child(needed, c.morton, c.height);
+        c.whole = NeededNodes::asks_for_all(c.needed, c.morton, c.height);
+    }
+    return c;
+}
+
+bool Site::value_only() const {
+    // Longer runs of codes are seldom of this kind, and keeping the nodes does no harm.
+    constexpr std::size_t few = 64;
+    return !needed.empty() && needed.size() <= few &&
+           NeededNodes::asks_for_value_only(needed, morton, height);
+}
+
+SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa)
+    : set_(set), params_(params), isa_(isa), judge_(set, params.receivers, params.mesh_certificate) {}
+
+std::optional<SquareBuilder::Part> SquareBuilder::decide(const Site& site, std::vector<Listed>& list,
+                                                         std::size_t begin, float& deepest) {
+    ++stats.nodes_visited;
+    if (site.not_needed()) return done(site, BuildSquare::not_needed, any_depth);
+    if (list.size() == begin) return done(site, BuildSquare::nothing, DepthInterval{});
+    const Verdict verdict = judge_.judge(site.square, list, begin);
+    deepest = std::min(deepest, verdict.deepest);
+    if (!verdict.common) return {};
+    ++(verdict.by_mesh ? stats.certified_mesh : stats.certified_cover);
+    return done(site, verdict.by_mesh ? BuildSquare::mesh : BuildSquare::cover, *verdict.common);
+}
+
+void SquareBuilder::hand_down(const std::vector<Listed>& list, std::size_t begin, std::size_t end,
+                              float deepest, const Square& square, std::vector<Listed>& to) {
+    for (std::size_t i = begin; i < end; ++i) {
+        const Listed l = list[i];  // a copy: `to` may be the same vector
+        if (l.low > deepest) continue;
+        ++stats.list_operations;
+        const std::optional<Listed> placed = place(set_, l.facet, l.crossed, square);
+        if (placed) to.push_back(*placed);
+    }
+}
+
+SquareBuilder::Part SquareBuilder::build(const Site& site, const std::vector<Listed>& list) {
+    list_.assign(list.begin(), list.end());
+    return visit(site, 0);
+}
+
+SquareBuilder::Part SquareBuilder::done(const Site& site, BuildSquare::Fate fate, DepthInterval interval) {
+    note(site, fate);
+    return Quadtree::texel(interval);
+}
+
+void SquareBuilder::note(const Site& site, BuildSquare::Fate fate) {
+    if (params_.trace != nullptr) trace.push_back({fate, site.square.x0, site.square.y0, site.square.side});
+}
+
+/// The square's list is list_ from `begin` to its end.
+SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
+    float deepest = 2.0f;
+    if (const std::optional<Part> part = decide(site, list_, begin, deepest)) return *part;
+    const std::size_t end = list_.size(), mark = tree.nodes.size();
+    Part part;
+    if (dense(site.square.side, end - begin)) {
+        part = rasterize_tile(site, begin);
+    } else if (site.square.side <= block_side) {
+        part = rasterize_block(site, begin);
+    } else {
+        note(site, BuildSquare::divided);
+        Part child[4];
+        for (int i = 0; i < 4; ++i) {
+            const Site quadrant = site.child(i);
+            if (!quadrant.not_needed()) hand_down(list_, begin, end, deepest, quadrant.square, list_);
+            child[i] = visit(quadrant, end);
+            list_.resize(end);
+        }
+        part = tree.join(child);
+    }
+    if (site.value_only()) {
+        part.kinds = 0;
+        tree.nodes.resize(mark);
+    }
+    return part;
+}
+
+void SquareBuilder::list_records(const Site& site, std::size_t begin) {
+    note(site, BuildSquare::rasterized);
+    const auto side = static_cast<std::uint64_t>(site.square.side);
+    stats.texels_rasterized += side * side;
+    records_.clear();
+    for (std::size_t i = begin; i < list_.size(); ++i)
+        records_.push_back(set_.facets[list_[i].facet].record);
+}
+
+SquareBuilder::Part SquareBuilder::rasterize_block(const Site& site, std::size_t begin) {
+    list_records(site, begin);
+    const Square& s = site.square;
+    alignas(64) float entry[block_texels], exit[block_texels];
+    OBSCURA_DISPATCH(isa_, block_intervals, set_.setup.records.data(), records_.data(), records_.size(), s.x0,
+                     s.y0, params_.receivers == Receivers::static_only, entry, exit);
+    return reduce(entry, exit, s.side * s.side);
+}
+
+/// The bottom-up construction over `count` texels in Morton order.
+SquareBuilder::Part SquareBuilder::reduce(const float* entry, const float* exit, int count) {
+    float low = entry[0], high = exit[0];
+    for (int i = 1; i < count; ++i) {
+        low = std::max(low, entry[i]);
+        high = std::min(high, exit[i]);
+    }
+    if (low <= high) return Quadtree::texel({low, high});
+    const int quarter = count / 4;
+    Part child[4];
+    for (int i = 0; i < 4; ++i)
+        child[i] = reduce(entry + i * quarter, exit + i * quarter, quarter);
+    return tree.join(child);
+}
+
+SquareBuilder::Part SquareBuilder::rasterize_tile(const Site& site, std::size_t begin) {
+    list_records(site, begin);
+    const Square& s = site.square;
+    const TileRect rect{s.x0, s.y0, std::max(s.side, 16), s.side};
+    intervals_.resize(layer_tile_texels);
+    tiler_.run(set_.setup, records_, rect, params_.receivers, isa_, intervals_.data());
+    return reduce_rows(intervals_.data(), rect.width, s.side);
+}
+
+/// The bottom-up construction over rows of `stride` texels.
+SquareBuilder::Part SquareBuilder::reduce_rows(const DepthInterval* rows, int stride, int side) {
+    if (side == 1) return Quadtree::texel(rows[0]);
+    const int half = side / 2;
+    const Part child[4] = {reduce_rows(rows, stride, half), reduce_rows(rows + half, stride, half),
+                           reduce_rows(rows + half * stride, stride, half),
+                           reduce_rows(rows + half * stride + half, stride, half)};
+    return tree.join(child);
+}
+
+}  // namespace obscura
