@@ -82,8 +82,8 @@ MultiresNode decode_below(const TreeCode& code, std::uint64_t node, int height, 
         unit += units[kind];
     }
     MultiresNode result;
-    result.kinds = header.kinds;
-    result.first_child = tree.nodes.size();
+    result.kinds = header.kinds & 0xffffu;
+    result.set_first_child(tree.nodes.size());
     tree.nodes.insert(tree.nodes.end(), group, group + count);
     return result;
 }

@@ -59,7 +59,7 @@ class Emitter {
             if (kind == 0) continue;
             write(at + unit, kind, *node, block_of[i] == 0 ? 0 : block_of[i] - unit, height);
             if (block_of[i] != 0) {
-                group(tree_.nodes.data() + node->first_child, node->kinds, height - 1, at + block_of[i]);
+                group(tree_.nodes.data() + node->first_child(), node->kinds, height - 1, at + block_of[i]);
             }
             unit += units_[kind];
             ++node;

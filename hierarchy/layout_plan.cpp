@@ -20,7 +20,7 @@ constexpr bool is_inner(std::uint32_t kind) {
 void collect(const MultiresTree& tree, const MultiresNode& node, int height, TreeShape& shape) {
     CHECK(height > 0 || node.kinds == 0, "texels have no children");
     shape.kinds[height].push_back(static_cast<std::uint8_t>(node.kinds));
-    const MultiresNode* child = tree.nodes.data() + node.first_child;
+    const MultiresNode* child = tree.nodes.data() + node.first_child();
     for (int i = 0; i < 4; ++i) {
         const std::uint32_t kind = kind_of(node.kinds, i);
         shape.counts.leaf += kind == leaf_kind;

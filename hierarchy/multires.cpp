@@ -9,7 +9,7 @@ namespace obscura {
 namespace {
 
 void count(const MultiresTree& tree, const MultiresNode& node, MultiresCounts& counts) {
-    std::uint64_t next = node.first_child;
+    std::uint64_t next = node.first_child();
     for (int i = 0; i < 1 << tree.dimensions; ++i) {
         const ChildKind kind = node.child(i);
         if (kind == ChildKind::none) continue;
@@ -128,11 +128,11 @@ class TopDown {
                          {square.x + (q % 2) * half, square.y + (q / 2) * half, half});
             const ChildKind kind =
                 own ? (child.kinds == 0 ? ChildKind::leaf : ChildKind::full) : ChildKind::empty;
-            node.kinds |= static_cast<std::uint32_t>(kind) << (2 * q);
+            node.kinds = (node.kinds | static_cast<std::uint32_t>(kind) << (2 * q)) & 0xffffu;
             group.push_back(child);
             quadrant[q] = {};
         }
-        node.first_child = tree_.nodes.size();
+        node.set_first_child(tree_.nodes.size());
         tree_.nodes.insert(tree_.nodes.end(), group.begin(), group.end());
     }
 
@@ -175,7 +175,7 @@ std::uint64_t MultiresBuilder<dimensions>::append(const MultiresBuilder& other) 
     const std::uint64_t offset = nodes.size();
     nodes.reserve(nodes.size() + other.nodes.size());
     for (MultiresNode node : other.nodes) {
-        node.first_child += offset;
+        node.set_first_child(node.first_child() + offset);
         nodes.push_back(node);
     }
     return offset;
@@ -210,7 +210,7 @@ float value_at(const MultiresTree& tree, std::uint32_t x, std::uint32_t y) {
         const ChildKind kind = node->child(child);
         if (kind == ChildKind::none) break;
         // Children that exist stand together: count those before this one.
-        std::uint64_t place = node->first_child;
+        std::uint64_t place = node->first_child();
         for (int i = 0; i < child; ++i)
             place += node->child(i) != ChildKind::none;
         node = &tree.nodes[place];

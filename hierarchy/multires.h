@@ -21,12 +21,27 @@ enum class ChildKind : std::uint32_t {
 };
 
 /// A node of the tree under construction; its children that exist stand together, in child order.
+/// Twelve bytes: there are tens of millions.
 struct MultiresNode {
-    float value = 0;                ///< leaf and full: the stored depth
-    std::uint32_t kinds = 0;        ///< two bits per child
-    std::uint64_t first_child = 0;  ///< index into MultiresTree::nodes
+    float value = 0;               ///< leaf and full: the stored depth
+    std::uint32_t kinds : 16 = 0;  ///< two bits per child
+    std::uint32_t first_high : 16 = 0;
+    std::uint32_t first_low = 0;
+
+    MultiresNode() = default;
+    MultiresNode(float value_, std::uint32_t kinds_, std::uint64_t first_child_)
+        : value(value_), kinds(kinds_ & 0xffffu) {
+        set_first_child(first_child_);
+    }
     ChildKind child(int i) const { return static_cast<ChildKind>(kinds >> (2 * i) & 3u); }
+    /// Index into MultiresTree::nodes, below 2^48.
+    std::uint64_t first_child() const { return std::uint64_t{first_high} << 32 | first_low; }
+    void set_first_child(std::uint64_t index) {
+        first_high = static_cast<std::uint32_t>(index >> 32) & 0xffffu;
+        first_low = static_cast<std::uint32_t>(index);
+    }
 };
+static_assert(sizeof(MultiresNode) == 12);
 
 /// Numbers that papers compare.
 struct MultiresCounts {

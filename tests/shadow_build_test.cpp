@@ -28,7 +28,7 @@ LightView oblique_view(const Mesh& mesh, int side) {
     }
     const auto same = [](const MultiresNode& p, const MultiresNode& q) {
         return std::memcmp(&p.value, &q.value, sizeof p.value) == 0 && p.kinds == q.kinds &&
-               (p.kinds == 0 || p.first_child == q.first_child);
+               (p.kinds == 0 || p.first_child() == q.first_child());
     };
     if (!same(a.root, b.root) || a.root_interval != b.root_interval)
         return ::testing::AssertionFailure() << "root differs";

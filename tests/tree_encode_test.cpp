@@ -41,7 +41,7 @@ void expect_same_values(const MultiresTree& tree, const ShadowTree& encoded) {
 
 bool same_nodes(const MultiresTree& a, const MultiresTree& b) {
     const auto same = [](const MultiresNode& p, const MultiresNode& q) {
-        return p.value == q.value && p.kinds == q.kinds && (p.kinds == 0 || p.first_child == q.first_child);
+        return p.value == q.value && p.kinds == q.kinds && (p.kinds == 0 || p.first_child() == q.first_child());
     };
     return a.levels == b.levels && a.root.value == b.root.value && a.root.kinds == b.root.kinds &&
            std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same);
@@ -107,7 +107,7 @@ TEST(TreeEncode, LevelsStopWhereAsked) {
                 for (int l = tree.levels - 1; l >= level; --l) {
                     const int child = static_cast<int>((x >> l & 1u) + 2 * (y >> l & 1u));
                     if (node->child(child) == ChildKind::none) break;
-                    std::uint64_t place = node->first_child;
+                    std::uint64_t place = node->first_child();
                     for (int i = 0; i < child; ++i)
                         place += node->child(i) != ChildKind::none;
                     const bool has_value = node->child(child) != ChildKind::empty;

@@ -13,7 +13,7 @@ inline float value_at_level(const MultiresTree& tree, std::uint32_t x, std::uint
         const int child = static_cast<int>((x >> h & 1u) + 2 * (y >> h & 1u));
         const ChildKind kind = node->child(child);
         if (kind == ChildKind::none) break;
-        std::uint64_t place = node->first_child;
+        std::uint64_t place = node->first_child();
         for (int i = 0; i < child; ++i)
             place += node->child(i) != ChildKind::none;
         node = &tree.nodes[place];
