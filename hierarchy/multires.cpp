@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
+#include <utility>
 
 #include "hierarchy/combine.h"
 
@@ -26,16 +28,37 @@ int levels_of(ImageView<const DepthInterval> intervals) {
     return std::countr_zero(static_cast<unsigned>(intervals.width));
 }
 
-using Quadtree = MultiresBuilder<2>;
+IntervalSource<2> source_of(ImageView<const DepthInterval> intervals) {
+    return [intervals](const std::array<std::uint32_t, 2>& at) {
+        return intervals(static_cast<int>(at[0]), static_cast<int>(at[1]));
+    };
+}
 
-Quadtree::Part bottom_up(ImageView<const DepthInterval> intervals, int x, int y, int side,
-                         Quadtree& builder) {
-    if (side == 1) return Quadtree::texel(intervals(x, y));
-    const int half = side / 2;
-    const Quadtree::Part child[4] = {bottom_up(intervals, x, y, half, builder),
-                                     bottom_up(intervals, x + half, y, half, builder),
-                                     bottom_up(intervals, x, y + half, half, builder),
-                                     bottom_up(intervals, x + half, y + half, half, builder)};
+/// All intervals of 2^levels texels a side in Morton order: the texels of every square, or cube, of the tree
+/// stand together, those of its children one after the other.
+template <int dimensions>
+std::vector<DepthInterval> in_morton_order(int levels, const IntervalSource<dimensions>& source) {
+    CHECK(levels >= 0 && levels * dimensions < 40);
+    std::vector<DepthInterval> all(std::size_t{1} << (levels * dimensions));
+    for (std::size_t code = 0; code < all.size(); ++code) {
+        std::array<std::uint32_t, dimensions> at{};
+        for (int bit = 0; bit < levels * dimensions; ++bit)
+            at[static_cast<std::size_t>(bit % dimensions)] |= static_cast<std::uint32_t>(code >> bit & 1u)
+                                                              << (bit / dimensions);
+        all[code] = source(at);
+    }
+    return all;
+}
+
+template <int dimensions>
+typename MultiresBuilder<dimensions>::Part bottom_up(std::span<const DepthInterval> texels,
+                                                     MultiresBuilder<dimensions>& builder) {
+    using Builder = MultiresBuilder<dimensions>;
+    if (texels.size() == 1) return Builder::texel(texels[0]);
+    const std::size_t share = texels.size() / Builder::children;
+    typename Builder::Part child[Builder::children];
+    for (std::size_t i = 0; i < Builder::children; ++i)
+        child[i] = bottom_up<dimensions>(texels.subspan(i * share, share), builder);
     return builder.join(child);
 }
 
@@ -43,10 +66,10 @@ Quadtree::Part bottom_up(ImageView<const DepthInterval> intervals, int x, int y,
 struct IntervalEnd {
     float depth;
     bool exit;
-    std::uint32_t texel;  ///< y * width + x
+    std::uint32_t texel;  ///< Morton code
 };
 
-/// Top-down construction with the ends of all intervals sorted once; quadrants extract theirs in order.
+/// Top-down construction with the ends of all intervals sorted once; children extract theirs in order.
 ///
 /// The paper's algorithm 1 hands only the intervals that are still uncovered to a quadrant. But a texel that
 /// an ancestor's value covers is decoded with the last value on its path, so a quadrant's own value must suit
@@ -55,17 +78,13 @@ struct IntervalEnd {
 /// where that serves as many of them as the best value of its own.
 class TopDown {
   public:
-    TopDown(ImageView<const DepthInterval> intervals, MultiresTree& tree)
-        : intervals_(intervals), tree_(tree) {}
+    TopDown(std::span<const DepthInterval> texels, MultiresTree& tree) : texels_(texels), tree_(tree) {}
 
     void run() {
         std::vector<IntervalEnd> ends;
-        for (int y = 0; y < intervals_.height; ++y) {
-            for (int x = 0; x < intervals_.width; ++x) {
-                const auto texel = static_cast<std::uint32_t>(y * intervals_.width + x);
-                ends.push_back({intervals_(x, y).entry, false, texel});
-                ends.push_back({intervals_(x, y).exit, true, texel});
-            }
+        for (std::uint32_t texel = 0; texel < texels_.size(); ++texel) {
+            ends.push_back({texels_[texel].entry, false, texel});
+            ends.push_back({texels_[texel].exit, true, texel});
         }
         // Entries before exits at equal depth: intervals are closed, touching ones share their border.
         std::sort(ends.begin(), ends.end(), [](const IntervalEnd& p, const IntervalEnd& q) {
@@ -74,22 +93,14 @@ class TopDown {
         });
         tree_.root_interval = most_stabbed(ends).interval;
         tree_.root.value = stored_depth(tree_.root_interval);
-        add_children(tree_.root, tree_.root.value, ends, {0, 0, intervals_.width});
+        add_children(tree_.root, tree_.root.value, ends, tree_.levels);
     }
 
   private:
-    struct Square {
-        int x, y, side;
-    };
     struct Stabbed {
         DepthInterval interval;
         int count = 0;
     };
-
-    DepthInterval interval_of(const IntervalEnd& end) const {
-        const int texel = static_cast<int>(end.texel);
-        return intervals_(texel % intervals_.width, texel / intervals_.width);
-    }
 
     /// The depths stabbed most often: from the entry that reaches the greatest count to the next exit.
     static Stabbed most_stabbed(const std::vector<IntervalEnd>& ends) {
@@ -102,41 +113,41 @@ class TopDown {
         return best;
     }
 
-    /// Gives `node` children for the quadrants of `square` in which some texel cannot take `value`.
-    void add_children(MultiresNode& node, float value, const std::vector<IntervalEnd>& ends, Square square) {
-        const int half = square.side / 2;
-        std::vector<IntervalEnd> quadrant[4];
-        bool divided[4] = {};
+    /// Gives `node`, 2^height texels a side, children where some texel cannot take `value`.
+    void add_children(MultiresNode& node, float value, const std::vector<IntervalEnd>& ends, int height) {
+        if (height == 0) return;
+        const std::uint32_t children = 1u << tree_.dimensions;
+        const int shift = tree_.dimensions * (height - 1);
+        std::vector<std::vector<IntervalEnd>> part(children);
+        std::vector<char> divided(children, 0);
         for (const IntervalEnd& end : ends) {
-            const int texel = static_cast<int>(end.texel);
-            const int q = (texel % intervals_.width >= square.x + half ? 1 : 0) +
-                          (texel / intervals_.width >= square.y + half ? 2 : 0);
-            quadrant[q].push_back(end);
-            divided[q] = divided[q] || !contains(interval_of(end), value);
+            const std::uint32_t i = end.texel >> shift & (children - 1);
+            part[i].push_back(end);
+            divided[i] = divided[i] || !contains(texels_[end.texel], value);
         }
         std::vector<MultiresNode> group;
-        for (int q = 0; q < 4; ++q) {
-            if (!divided[q]) continue;
-            const Stabbed best = most_stabbed(quadrant[q]);
+        std::uint32_t kinds = 0;
+        for (std::uint32_t i = 0; i < children; ++i) {
+            if (!divided[i]) continue;
+            const Stabbed best = most_stabbed(part[i]);
             int inherited = 0;
-            for (const IntervalEnd& end : quadrant[q])
-                inherited += !end.exit && contains(interval_of(end), value);
+            for (const IntervalEnd& end : part[i])
+                inherited += !end.exit && contains(texels_[end.texel], value);
             const bool own = best.count > inherited;
             MultiresNode child;
             child.value = own ? stored_depth(best.interval) : 0.0f;
-            add_children(child, own ? child.value : value, quadrant[q],
-                         {square.x + (q % 2) * half, square.y + (q / 2) * half, half});
+            add_children(child, own ? child.value : value, part[i], height - 1);
             const ChildKind kind =
                 own ? (child.kinds == 0 ? ChildKind::leaf : ChildKind::full) : ChildKind::empty;
-            node.kinds = (node.kinds | static_cast<std::uint32_t>(kind) << (2 * q)) & 0xffffu;
+            kinds |= static_cast<std::uint32_t>(kind) << (2 * i);
             group.push_back(child);
-            quadrant[q] = {};
+            part[i] = {};
         }
-        node.set_first_child(tree_.nodes.size());
+        node = {node.value, kinds, tree_.nodes.size()};
         tree_.nodes.insert(tree_.nodes.end(), group.begin(), group.end());
     }
 
-    ImageView<const DepthInterval> intervals_;
+    std::span<const DepthInterval> texels_;
     MultiresTree& tree_;
 };
 
@@ -184,29 +195,49 @@ std::uint64_t MultiresBuilder<dimensions>::append(const MultiresBuilder& other) 
 template class MultiresBuilder<2>;
 template class MultiresBuilder<3>;
 
-MultiresTree build_bottom_up(ImageView<const DepthInterval> intervals) {
+template <int dimensions>
+MultiresTree build_bottom_up(int levels, const IntervalSource<dimensions>& source) {
     MultiresTree tree;
-    tree.levels = levels_of(intervals);
-    Quadtree builder;
-    const Quadtree::Part root = bottom_up(intervals, 0, 0, intervals.width, builder);
+    tree.dimensions = dimensions;
+    tree.levels = levels;
+    MultiresBuilder<dimensions> builder;
+    const auto root = bottom_up<dimensions>(in_morton_order<dimensions>(levels, source), builder);
     tree.root = {stored_depth(root.interval), root.kinds, root.first_child};
     tree.root_interval = root.interval;
     tree.nodes = std::move(builder.nodes);
     return tree;
 }
+template MultiresTree build_bottom_up<2>(int, const IntervalSource<2>&);
+template MultiresTree build_bottom_up<3>(int, const IntervalSource<3>&);
 
-MultiresTree build_top_down(ImageView<const DepthInterval> intervals) {
+template <int dimensions>
+MultiresTree build_top_down(int levels, const IntervalSource<dimensions>& source) {
     MultiresTree tree;
-    tree.levels = levels_of(intervals);
-    TopDown(intervals, tree).run();
+    tree.dimensions = dimensions;
+    tree.levels = levels;
+    TopDown(in_morton_order<dimensions>(levels, source), tree).run();
     return tree;
 }
+template MultiresTree build_top_down<2>(int, const IntervalSource<2>&);
+template MultiresTree build_top_down<3>(int, const IntervalSource<3>&);
 
-float value_at(const MultiresTree& tree, std::uint32_t x, std::uint32_t y) {
+MultiresTree build_bottom_up(ImageView<const DepthInterval> intervals) {
+    return build_bottom_up<2>(levels_of(intervals), source_of(intervals));
+}
+
+MultiresTree build_top_down(ImageView<const DepthInterval> intervals) {
+    return build_top_down<2>(levels_of(intervals), source_of(intervals));
+}
+
+template <int dimensions>
+float value_at(const MultiresTree& tree, const std::array<std::uint32_t, dimensions>& at) {
+    CHECK(tree.dimensions == dimensions);
     const MultiresNode* node = &tree.root;
     float value = node->value;
     for (int level = tree.levels - 1; level >= 0; --level) {
-        const int child = static_cast<int>((x >> level & 1u) + 2 * (y >> level & 1u));
+        int child = 0;
+        for (int d = 0; d < dimensions; ++d)
+            child |= static_cast<int>(at[static_cast<std::size_t>(d)] >> level & 1u) << d;
         const ChildKind kind = node->child(child);
         if (kind == ChildKind::none) break;
         // Children that exist stand together: count those before this one.
@@ -217,6 +248,12 @@ float value_at(const MultiresTree& tree, std::uint32_t x, std::uint32_t y) {
         if (kind != ChildKind::empty) value = node->value;
     }
     return value;
+}
+template float value_at<2>(const MultiresTree&, const std::array<std::uint32_t, 2>&);
+template float value_at<3>(const MultiresTree&, const std::array<std::uint32_t, 3>&);
+
+float value_at(const MultiresTree& tree, std::uint32_t x, std::uint32_t y) {
+    return value_at<2>(tree, {x, y});
 }
 
 }  // namespace obscura

@@ -4,7 +4,9 @@
 //
 // Scandolo, Bauszat, Eisemann 2016, section 3. Works for quadtrees (2^2 children) and octrees (2^3).
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/image.h"
@@ -89,15 +91,27 @@ class MultiresBuilder {
 extern template class MultiresBuilder<2>;
 extern template class MultiresBuilder<3>;
 
-/// Bottom-up construction over a square power-of-two picture of intervals: the definition that the
-/// output-sensitive construction must equal.
-MultiresTree build_bottom_up(ImageView<const DepthInterval> intervals);
+/// Where intervals come from: that of the texel at x, y (and in stacks of maps the number of the map).
+template <int dimensions>
+using IntervalSource = std::function<DepthInterval(const std::array<std::uint32_t, dimensions>&)>;
+
+/// Bottom-up construction over 2^levels texels a side: the definition that the construction from triangles
+/// must equal. O(n) time and memory for n texels. For 2 and 3 dimensions.
+template <int dimensions>
+MultiresTree build_bottom_up(int levels, const IntervalSource<dimensions>& source);
 
 /// Top-down construction (paper, algorithm 1, made lossless: see multires.cpp): each node takes the depth
-/// that most texels of its square can take. O(n log n) for n texels; for comparison.
+/// that most texels of its square can take. O(n log n); for comparison. For 2 and 3 dimensions.
+template <int dimensions>
+MultiresTree build_top_down(int levels, const IntervalSource<dimensions>& source);
+
+/// The same of a square power-of-two picture of intervals.
+MultiresTree build_bottom_up(ImageView<const DepthInterval> intervals);
 MultiresTree build_top_down(ImageView<const DepthInterval> intervals);
 
-/// Value of texel (x, y) by plain descent: the oracle of every faster lookup.
+/// Value of a texel by plain descent: the oracle of every faster lookup.
+template <int dimensions>
+float value_at(const MultiresTree& tree, const std::array<std::uint32_t, dimensions>& at);
 float value_at(const MultiresTree& tree, std::uint32_t x, std::uint32_t y);
 
 }  // namespace obscura

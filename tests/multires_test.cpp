@@ -121,5 +121,29 @@ TEST(Multires, ConstructionsAreCloseInSize) {
     EXPECT_LT(up, down + down / 4);
 }
 
+TEST(Multires, StacksOfMapsAreOctrees) {
+    // A sun that moves: 16 maps of 16 x 16 texels.
+    const Mesh mesh = solids::random_solids(9, 30, false, false);
+    std::vector<Image<DepthInterval>> maps;
+    for (int i = 0; i < 16; ++i) {
+        const Vec3d direction = normalize(Vec3d{0.3 + 0.02 * i, -1, 0.2});
+        maps.push_back(
+            interval_map(mesh, orthographic_light_view(bounds_of(mesh), direction, 16), {}, Exec{}));
+    }
+    const IntervalSource<3> source = [&](const std::array<std::uint32_t, 3>& at) {
+        return maps[at[2]](static_cast<int>(at[0]), static_cast<int>(at[1]));
+    };
+    std::uint64_t flat = 0;
+    for (const Image<DepthInterval>& map : maps)
+        flat += build_bottom_up(map.view()).nodes.size() + 1;
+    for (const MultiresTree& tree : {build_bottom_up<3>(4, source), build_top_down<3>(4, source)}) {
+        for (std::uint32_t i = 0; i < 4096; ++i) {
+            const std::array<std::uint32_t, 3> at{i % 16, i / 16 % 16, i / 256};
+            ASSERT_TRUE(contains(source(at), value_at<3>(tree, at))) << i;
+        }
+        EXPECT_LT(tree.nodes.size(), flat) << "maps that change little share nodes";
+    }
+}
+
 }  // namespace
 }  // namespace obscura
