@@ -164,6 +164,8 @@ class Forest {
             node.below = std::make_unique<Quadtree>();
             node.below->nodes.assign(worker->tree.nodes.begin(), worker->tree.nodes.end());
             worker->tree.nodes.clear();
+            const std::uint64_t own = node.below->nodes.size();
+            check_size(grown_.fetch_add(own, std::memory_order_relaxed) + own, params_);
             node.trace = std::exchange(worker->trace, {});
         });
     }
@@ -197,9 +199,10 @@ class Forest {
     const BuildParams& params_;
     const Exec& exec_;
     const std::atomic<bool>* cancel_;
-    std::vector<Node> nodes_;           ///< level by level
-    std::vector<std::size_t> parents_;  ///< of node i at i - 1
-    std::size_t lowest_ = 0;            ///< where the lowest level begins
+    std::vector<Node> nodes_;               ///< level by level
+    std::vector<std::size_t> parents_;      ///< of node i at i - 1
+    std::size_t lowest_ = 0;                ///< where the lowest level begins
+    std::atomic<std::uint64_t> grown_ = 0;  ///< nodes in all finished squares
     std::mutex mutex_;
     std::vector<std::unique_ptr<SquareBuilder>> idle_;
 };

@@ -24,6 +24,9 @@ struct BuildParams {
     Receivers receivers = Receivers::any;
     bool only_casters = true;
     const NeededNodes* needed = nullptr;  ///< build only what these need; null: everything
+    /// Stop with LimitError when the tree gets more nodes than this. Open sheets under any receivers have a
+    /// node for every few texels, and no estimate beforehand can tell.
+    std::uint64_t max_nodes = UINT64_MAX;
     bool mesh_certificate = true;  ///< false: only single planes decide squares, to see what the rest gains
     std::vector<BuildSquare>* trace = nullptr;  ///< receives every square that was visited, parents first
 };

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "core/error.h"
+
 #include "raster/layer_tile.h"
 
 namespace obscura {
@@ -16,6 +20,14 @@ bool dense(std::int32_t side, std::size_t count) {
 }
 
 }  // namespace
+
+void check_size(std::uint64_t nodes, const BuildParams& params) {
+    if (nodes <= params.max_nodes) return;
+    throw LimitError(
+        fmt::format("a shadow map's tree passes {} nodes; lower its resolution, build only what the frame "
+                    "needs, or let open surfaces shade the scene alone (receivers = \"static\")",
+                    params.max_nodes));
+}
 
 Site Site::child(int i) const {
     Site c{square.child(i), morton * 4 + static_cast<std::uint64_t>(i), height - 1, whole, {}};
@@ -93,6 +105,7 @@ SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
             list_.resize(end);
         }
         part = tree.join(child);
+        check_size(tree.nodes.size(), params_);
     }
     if (site.value_only()) {
         part.kinds = 0;

@@ -34,6 +34,9 @@ struct Site {
 /// Takes part in nothing: any depth will do (the paper's placeholder, section 4).
 constexpr DepthInterval any_depth{0.0f, 1.0f};
 
+/// Throws LimitError beyond params.max_nodes.
+void check_size(std::uint64_t nodes, const BuildParams& params);
+
 /// Builds the part of the tree below one square, depth first. One per thread: it keeps working memory as
 /// large as the scene.
 class SquareBuilder {

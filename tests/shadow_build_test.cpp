@@ -5,6 +5,7 @@
 #include <cstring>
 #include <random>
 
+#include "core/error.h"
 #include "core/topology.h"
 #include "hierarchy/build.h"
 #include "hierarchy/combine.h"
@@ -94,6 +95,16 @@ TEST(ShadowBuild, EqualsBottomUpOnSmoothMeshes) {
         solids::add(mesh, solids::shifted(sphere(1.2, 64, 32), {place(rng), place(rng), place(rng)}));
     for (const int side : {128, 1024, 2048})
         expect_equal(mesh, oblique_view(mesh, side));
+}
+
+TEST(ShadowBuild, StopsBeforeItGrowsTooLarge) {
+    const Mesh mesh = solids::random_solids(5, 60, true, false);
+    const LightView view = oblique_view(mesh, 1024);
+    BuildParams params;
+    params.max_nodes = build_shadow_tree(mesh, view, params, Exec{}).nodes.size();
+    EXPECT_NO_THROW(build_shadow_tree(mesh, view, params, Exec{}));
+    params.max_nodes /= 2;
+    EXPECT_THROW(build_shadow_tree(mesh, view, params, Exec{}), LimitError);
 }
 
 TEST(ShadowBuild, SameBitsForEveryExec) {
