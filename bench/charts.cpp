@@ -1,18 +1,13 @@
 #include "bench/charts.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <iterator>
-#include <sstream>
 
+#include "bench/gnuplot.h"
 #include "bench/report.h"
-#include "core/error.h"
-#include "core/file_output.h"
 
 namespace obscura {
 namespace {
@@ -58,16 +53,6 @@ std::vector<ChartLine> lines_of(const std::vector<BenchRow>& rows, Workload work
         }
     }
     return lines;
-}
-
-/// gnuplot's single-quoted string.
-std::string quoted(const std::string& text) {
-    std::string out = "'";
-    for (const char c : text) {
-        if (c == '\'') out += '\'';
-        out += c;
-    }
-    return out + '\'';
 }
 
 /// "0.04x", "1.3x", "12x".
@@ -151,8 +136,8 @@ std::string frame_commands(const std::vector<ChartLine>& lines, const std::vecto
         "set grid xtics mxtics lt 1 lc rgb '#c8c8c8' lw 0.8, lt 1 lc rgb '#ececec' lw 0.5\n"
         "set xlabel 'time in ms (logarithmic; further left is faster)'\n"
         "set xrange [{:.4f}:{:.4f}]\nset yrange [{:.1f}:0.2]\n",
-        height, quoted(workload_title(*lines[1].rows[0])), from_top(24), from_top(78), 84.0 / height, low,
-        high, static_cast<double>(lines.size()) + 0.8);
+        height, gnuplot_text(workload_title(*lines[1].rows[0])), from_top(24), from_top(78), 84.0 / height,
+        low, high, static_cast<double>(lines.size()) + 0.8);
     std::string all;
     for (const int t : threads)
         all += fmt::format("{}{}", all.empty() ? "" : " / ", t);
@@ -175,8 +160,8 @@ std::string label_commands(const std::vector<BenchRow>& rows, const std::vector<
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const ChartLine& line = lines[i];
         if (line.contestant.empty()) {
-            script +=
-                fmt::format("set label {} at screen 0.02, first {} font ',14'\n", quoted(line.label), i + 1);
+            script += fmt::format("set label {} at screen 0.02, first {} font ',14'\n",
+                                  gnuplot_text(line.label), i + 1);
             script += fmt::format(
                 "set arrow from screen 0.02, first {0} to screen 0.98, first {0} nohead lc rgb '#999999'\n",
                 static_cast<double>(i) + 0.45);
@@ -184,10 +169,10 @@ std::string label_commands(const std::vector<BenchRow>& rows, const std::vector<
         }
         starred = starred || !line.rows[0]->same_work;
         const char* color = style_of(line.contestant).color;
-        script += fmt::format("set label {} at screen 0.38, first {} right tc rgb '{}'\n", quoted(line.label),
-                              i + 1, color);
+        script += fmt::format("set label {} at screen 0.38, first {} right tc rgb '{}'\n",
+                              gnuplot_text(line.label), i + 1, color);
         script += fmt::format("set label {} at screen 0.865, first {} tc rgb '{}'\n",
-                              quoted(ratios_text(rows, line)), i + 1, color);
+                              gnuplot_text(ratios_text(rows, line)), i + 1, color);
     }
     if (starred) {
         script += fmt::format(
@@ -196,30 +181,6 @@ std::string label_commands(const std::vector<BenchRow>& rows, const std::vector<
             16.0 / height);
     }
     return script;
-}
-
-bool in_path(const char* program) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        if (access((folder + '/' + program).c_str(), X_OK) == 0) return true;
-    }
-    return false;
-}
-
-/// Feeds `script` to gnuplot, which writes `file`. Throws OutputError when it fails.
-void run_gnuplot(const std::string& script, const std::filesystem::path& file) {
-    const std::filesystem::path part = file.string() + ".part";
-    FILE* gnuplot = popen("gnuplot", "w");
-    if (gnuplot == nullptr) throw OutputError("gnuplot cannot be started");
-    const std::string whole = fmt::format("set output {}\n{}", quoted(part.string()), script);
-    const bool written = std::fwrite(whole.data(), 1, whole.size(), gnuplot) == whole.size();
-    const int status = pclose(gnuplot);
-    std::error_code error;
-    if (written && status == 0) std::filesystem::rename(part, file, error);
-    if (!written || status != 0 || error) {
-        throw OutputError(fmt::format("{}: gnuplot could not draw it", file.string()));
-    }
 }
 
 }  // namespace
@@ -234,7 +195,7 @@ std::string chart_script(const std::vector<BenchRow>& rows, Workload workload, c
 }
 
 void draw_charts(const std::vector<BenchRow>& rows, const BenchOptions& options) {
-    if (!in_path("gnuplot")) {
+    if (!has_gnuplot()) {
         options.say("gnuplot is not installed (package gnuplot-nox): tables only, no charts");
         return;
     }

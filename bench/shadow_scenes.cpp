@@ -34,79 +34,55 @@ Mesh on_ground(const Mesh& part) {
 }
 
 std::vector<ShadowRecipe> data_recipes(const Path& data) {
+    enum class Stand { slab, pedestal, own };  // ground in metres; a slab for the part alone; brings its own
     struct Entry {
-        const char *name, *folder, *file, *what;
-        bool ground;      ///< add a slab of ground in metres; else a pedestal for the part
-        bool own_ground;  ///< it brings its own
+        const char *name, *folder, *what;
+        Stand stand;
         Vec3d eye, look_at;
     };
     // Streets are seen from above the roofs, so that pixels ask for shadows from near by to far away.
     const Entry entries[] = {
         {"vienna_west",
          "cities",
-         "vienna_west.obj",
          "294 closed buildings with real roofs",
-         true,
-         false,
+         Stand::slab,
          {-0.25, 0.42, 0.75},
          {0.05, 0.0, -0.05}},
         {"city_large",
          "cities",
-         "city_large.obj",
-         "24 districts, 435,152 triangles, closed",
-         true,
-         false,
+         "24 districts of real buildings, closed",
+         Stand::slab,
          {-0.30, 0.14, 0.42},
          {-0.05, 0.0, -0.10}},
         {"fzk_house",
          "cities",
-         "fzk_house.obj",
          "house with rooms, rafters, railings; open in places",
-         false,
-         true,
+         Stand::own,
          {-1.3, 1.1, 1.7},
          {0.0, 0.3, 0.0}},
-        {"armadillo",
-         "meshes",
-         "armadillo.obj",
-         "closed scan",
-         false,
-         false,
-         {-0.7, 1.4, 1.5},
-         {0.0, 0.65, 0.0}},
+        {"armadillo", "meshes", "closed scan", Stand::pedestal, {-0.9, 1.6, 2.5}, {0.0, 0.9, 0.0}},
         {"dragon_res2",
          "meshes",
-         "dragon_res2.obj",
          "closed scan with 1,405 doubled faces",
-         false,
-         false,
-         {-0.5, 0.9, 1.4},
-         {0.0, 0.3, 0.0}},
-        {"bunny",
-         "meshes",
-         "bunny.obj",
-         "scan with holes: open",
-         false,
-         false,
-         {-0.6, 1.1, 1.6},
+         Stand::pedestal,
+         {-0.6, 1.1, 1.9},
          {0.0, 0.5, 0.0}},
+        {"bunny", "meshes", "scan with holes: open", Stand::pedestal, {-0.7, 1.2, 2.0}, {0.0, 0.6, 0.0}},
         {"ficus_tree",
          "meshes",
-         "ficus_tree.obj",
          "thousands of leaves without thickness: open",
-         false,
-         false,
-         {-0.8, 1.5, 2.4},
-         {0.0, 1.0, 0.0}},
+         Stand::pedestal,
+         {-1.2, 2.0, 4.0},
+         {0.0, 1.35, 0.0}},
     };
     std::vector<ShadowRecipe> recipes;
     for (const Entry& e : entries) {
         const Path folder = data / e.folder;
-        if (!std::filesystem::exists(folder / e.file)) continue;
-        const std::string file = e.file;
+        const std::string file = std::string(e.name) + ".obj";
+        if (!std::filesystem::exists(folder / file)) continue;
         std::function<Mesh()> make = [folder, file] { return copies_on_slab(load(folder, file), 1, 1); };
-        if (e.ground) make = [folder, file] { return on_ground(load(folder, file)); };
-        if (e.own_ground) make = [folder, file] { return load(folder, file); };
+        if (e.stand == Stand::slab) make = [folder, file] { return on_ground(load(folder, file)); };
+        if (e.stand == Stand::own) make = [folder, file] { return load(folder, file); };
         recipes.push_back({e.name, e.what, afternoon, e.eye, e.look_at, make});
     }
     return recipes;

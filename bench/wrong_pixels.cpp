@@ -1,5 +1,7 @@
 #include "bench/wrong_pixels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -62,6 +64,16 @@ const char* wrong_name(Wrong kind) {
     return "";
 }
 
+std::string kinds_text(const WrongPixels& wrong) {
+    std::string text;
+    for (std::size_t k = 0; k < wrong_kinds; ++k) {
+        if (wrong.by_kind[k] == 0) continue;
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", wrong.by_kind[k],
+                            wrong_name(static_cast<Wrong>(k)));
+    }
+    return text;
+}
+
 TrueShadows true_shadows_of(const Scene& scene, const VisiblePoints& points, const ExactRays& rays,
                             const Exec& exec) {
     TrueShadows result;
@@ -87,9 +99,10 @@ std::vector<std::uint8_t> shown_shadows(const VisiblePoints& points, const Block
 }
 
 WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_t>& shown,
-                         const LightView& view, const Exec& exec) {
+                         const LightView& view, const Exec& exec, std::vector<std::uint8_t>* kinds) {
     const VisiblePoints& points = *scene.points;
     const Mat4 from_map = inverse(view.to_map);
+    if (kinds != nullptr) kinds->assign(scene.truth.size(), 0);
     std::vector<WrongPixels> parts(points.blocks.size());
     parallel_for(points.blocks.size(), exec, [&](std::size_t b) {
         WrongPixels& part = parts[b];
@@ -104,6 +117,7 @@ WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_
             if (map == Truth::lit) ++part.leaks;
             const Wrong kind = kind_of(scene, points.blocks[b], at, map, view, from_map);
             ++part.by_kind[static_cast<std::size_t>(kind)];
+            if (kinds != nullptr) (*kinds)[pixel] = static_cast<std::uint8_t>(1 + static_cast<int>(kind));
         }
     });
     WrongPixels sum;

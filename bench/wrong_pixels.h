@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "bench/exact_rays.h"
@@ -35,6 +36,9 @@ struct WrongPixels {
     }
 };
 
+/// "12 outline, 3 inside": the kinds that occur.
+std::string kinds_text(const WrongPixels& wrong);
+
 /// Visibility of a block's samples, 0 or 1: a map looked up with a kernel of one texel.
 using BlockLookup = std::function<void(const SurfaceBlock& surface, float* visibility)>;
 
@@ -53,8 +57,9 @@ TrueShadows true_shadows_of(const Scene& scene, const VisiblePoints& points, con
 std::vector<std::uint8_t> shown_shadows(const VisiblePoints& points, const BlockLookup& lookup,
                                         const Exec& exec);
 
-/// Compares; `view` is the map's, and tells which texel a pixel asked.
+/// Compares; `view` is the map's, and tells which texel a pixel asked. `kinds`, when given, becomes one entry
+/// per pixel, row by row: 0 where it is right, else 1 + its kind.
 WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_t>& shown,
-                         const LightView& view, const Exec& exec);
+                         const LightView& view, const Exec& exec, std::vector<std::uint8_t>* kinds = nullptr);
 
 }  // namespace obscura

@@ -2,8 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
 
 #include "bench/bench_recipes.h"
 #include "bench/shadow_scenes.h"
@@ -14,6 +22,8 @@
 #include "scenes/shapes.h"
 #ifdef OBSCURA_HAS_EMBREE
 #include "bench/exact_rays.h"
+#include "bench/map_points.h"
+#include "bench/shadow_methods.h"
 #include "bench/wrong_pixels.h"
 
 namespace obscura {
@@ -104,6 +114,83 @@ TEST(ShadowTruth, DenseMapsErrByTheirResolutionAlone) {
         EXPECT_LE(wrong.by_kind[static_cast<std::size_t>(Wrong::interval)], 1 + wrong.wrong / 50);
         last = wrong.fraction();
     }
+}
+
+/// Dense and compressed maps may differ only where the depth that was tested lies inside a solid.
+TEST(ShadowTruth, CompressedDiffersFromDenseOnlyInsideSolids) {
+    const Scene scene = small_scene();
+    const VisiblePoints points = visible_points(scene, Exec{});
+    const int size = 256;
+    const BuiltShadow dense = build_dense(scene, size, Exec{});
+    const BuiltShadow compressed = build_compressed(scene, size, Exec{});
+    const Image<DepthInterval> intervals = interval_map(scene.mesh, dense.view, {}, Exec{});
+    const auto shown = shown_shadows(points, dense.lookups(Isa::ref)[0].block, Exec{});
+    const auto shown_by_tree = shown_shadows(points, compressed.lookups(Isa::ref)[0].block, Exec{});
+    std::size_t differ = 0, lit = 0;
+    for (std::size_t b = 0; b < points.blocks.size(); ++b) {
+        for (int at = 0; at < block_samples; ++at) {
+            const std::size_t pixel = points.pixel(b, at);
+            lit += shown_by_tree[pixel];
+            if (shown[pixel] == shown_by_tree[pixel]) continue;
+            ++differ;
+            const TestedTexel t = tested_texel(points.blocks[b], dense.light, at);
+            ASSERT_TRUE(t.looked_up);
+            EXPECT_LT(intervals(t.x, t.y).entry, t.depth);
+            EXPECT_LE(t.depth, intervals(t.x, t.y).exit);
+        }
+    }
+    std::printf("%zu of %zu pixels differ, %zu lit\n", differ, points.covered, lit);
+    EXPECT_GT(lit, 3000u);
+    EXPECT_GT(differ, 0u);  // else nothing was tested: make the map coarser
+}
+
+TEST(ShadowTruth, BarePointsAnswerAsBlocksDo) {
+    const Scene scene = small_scene();
+    const VisiblePoints points = visible_points(scene, Exec{});
+    for (const bool tree : {false, true}) {
+        const BuiltShadow built =
+            tree ? build_compressed(scene, 512, Exec{}) : build_dense(scene, 512, Exec{});
+        const MapPointList list = map_points(points, built.light);
+        for (const Isa isa : supported_isas()) {
+            const auto shown = shown_shadows(points, built.lookups(isa)[0].block, Exec{});
+            for (const PointLookup& lookup : built.point_lookups(isa)) {
+                std::vector<std::uint16_t> lit((list.x.size() + 15) / 16);
+                lookup.look(list.points(0, list.x.size()), lit.data());
+                std::size_t wrong = 0;
+                for (std::size_t i = 0; i < list.x.size(); ++i)
+                    wrong += (lit[i / 16] >> (i % 16) & 1u) == shown[list.pixel[i]] ? 0 : 1;
+                EXPECT_EQ(wrong, 0u) << lookup.name << ' ' << isa_name(isa) << ' ' << tree;
+            }
+        }
+    }
+}
+
+TEST(ShadowBench, QuickRunWritesTablesAndCharts) {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "workers are forked, which the thread sanitizer does not follow";
+#endif
+    const std::filesystem::path out =
+        std::filesystem::temp_directory_path() / ("obscura_shadow_bench_test_" + std::to_string(getpid()));
+    // In a process of its own: workers must be forked before any thread is started.
+    const std::string command = std::string("'") + OBSCURA_BINARY + "' bench shadows --quick --runs 1 -o '" +
+                                out.string() + "' > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    for (const char* name : {"shadows.md", "shadows_accuracy.csv", "shadows_times.csv", "shadows_trees.csv",
+                             "shadows_directions.csv", "shadows_city.png"}) {
+        EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+    }
+    std::ifstream csv(out / "shadows_times.csv");
+    std::string line;
+    std::getline(csv, line);
+    const auto columns = std::count(line.begin(), line.end(), ',');
+    std::map<std::string, int> rows;
+    while (std::getline(csv, line)) {
+        // The names of jobs may hold commas, in quotes.
+        EXPECT_GE(std::count(line.begin(), line.end(), ','), columns) << line;
+        ++rows[line.substr(0, line.find(',', line.find(',', line.find(',') + 1) + 1))];
+    }
+    EXPECT_EQ(rows.size(), 3u);  // dense, compressed, Embree
+    std::filesystem::remove_all(out);
 }
 
 }  // namespace

@@ -1,0 +1,99 @@
+// Wrong pixels against the size of the map. Built only with Embree, which supplies the truth.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "bench/shadow_bench.h"
+#include "bench/shadow_methods.h"
+#include "bench/wrong_picture.h"
+#include "core/file_output.h"
+#include "core/image_io.h"
+#include "core/parallel.h"
+
+namespace obscura {
+namespace {
+
+/// One scene with its truth and, per size, what the dense maps got wrong.
+struct Judge {
+    const ShadowRecipe& recipe;
+    const BenchOptions& options;
+    Exec exec;
+    Scene scene;
+    VisiblePoints points;
+    ExactRays rays;
+    TrueShadows truth;
+    std::vector<std::pair<int, std::vector<std::uint8_t>>> dense_kinds;
+
+    Judge(const ShadowRecipe& recipe_, const ShadowBenchPlan& plan, const BenchOptions& options_)
+        : recipe(recipe_),
+          options(options_),
+          exec{best_isa(), hardware_threads()},
+          scene(stage_shadows(recipe_, plan.picture)),
+          points(visible_points(scene, exec)),
+          rays(scene.mesh),
+          truth(true_shadows_of(scene, points, rays, exec)) {}
+};
+
+AccuracyRow judge_map(Judge& judge, const char* method, int size, const BuiltShadow& built,
+                      std::vector<std::uint8_t>& kinds) {
+    AccuracyRow row;
+    row.scene = judge.recipe.name;
+    row.triangles = judge.scene.mesh.triangles.size();
+    row.method = method;
+    row.size = size;
+    row.bytes = built.bytes;
+    row.build_s = built.build_s;
+    const auto shown = shown_shadows(judge.points, built.lookups(judge.exec.isa)[0].block, judge.exec);
+    row.wrong = wrong_pixels(judge.truth, shown, built.view, judge.exec, &kinds);
+    judge.options.say(fmt::format("{}, {} {}: {:.4f} % wrong ({} of {}; {})", row.scene, method, size,
+                                  100 * row.wrong.fraction(), row.wrong.wrong, row.wrong.covered,
+                                  kinds_text(row.wrong)));
+    return row;
+}
+
+/// Against the dense map of the same size, if there is one.
+void compare_with_dense(const Judge& judge, const std::vector<std::uint8_t>& kinds, AccuracyRow& row) {
+    for (const auto& [size, dense] : judge.dense_kinds) {
+        if (size != row.size) continue;
+        row.has_dense = true;
+        for (std::size_t p = 0; p < kinds.size(); ++p) {
+            row.worse += kinds[p] != 0 && dense[p] == 0 ? 1 : 0;
+            row.better += kinds[p] == 0 && dense[p] != 0 ? 1 : 0;
+        }
+        judge.options.say(
+            fmt::format("{}, {}: compressed is wrong at {} pixels where dense is right, right at "
+                        "{} where dense is wrong",
+                        row.scene, size, row.worse, row.better));
+    }
+}
+
+void paint(const Judge& judge, const std::vector<std::uint8_t>& kinds) {
+    const Image<Rgb8> picture = wrong_picture(judge.truth, kinds);
+    write_file_atomically(judge.options.out / fmt::format("shadows_{}.png", judge.recipe.name),
+                          encode_png(picture.view()), Existing::replace);
+}
+
+}  // namespace
+
+std::vector<AccuracyRow> measure_accuracy(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
+                                          const BenchOptions& options) {
+    options.say(fmt::format("{}: exact shadow rays", recipe.name));
+    Judge judge(recipe, plan, options);
+    std::vector<AccuracyRow> rows;
+    for (const int size : plan.dense_sizes) {
+        std::vector<std::uint8_t> kinds;
+        rows.push_back(judge_map(judge, dense_name, size, build_dense(judge.scene, size, judge.exec), kinds));
+        if (size == plan.picture_size) paint(judge, kinds);
+        judge.dense_kinds.emplace_back(size, std::move(kinds));
+    }
+    for (const int size : plan.compressed_sizes) {
+        std::vector<std::uint8_t> kinds;
+        rows.push_back(
+            judge_map(judge, compressed_name, size, build_compressed(judge.scene, size, judge.exec), kinds));
+        compare_with_dense(judge, kinds, rows.back());
+    }
+    return rows;
+}
+
+}  // namespace obscura

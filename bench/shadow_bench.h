@@ -1,0 +1,54 @@
+#pragma once
+// `obscura bench shadows`: dense and compressed shadow maps beside exact rays.
+
+#include <string>
+#include <vector>
+
+#include "bench/raster_bench.h"
+#include "bench/shadow_results.h"
+#include "bench/shadow_scenes.h"
+
+namespace obscura {
+
+/// What a run asks for.
+struct ShadowBenchPlan {
+    PictureSize picture;
+    std::vector<int> dense_sizes, compressed_sizes;              ///< of the accuracy chart
+    std::vector<int> timed_dense_sizes, timed_compressed_sizes;  ///< of the lookups
+    std::vector<int> tree_sizes;                                 ///< of the table of trees
+    std::vector<int> direction_sizes;                            ///< top-down against bottom-up
+    std::vector<std::string> timed_scenes;                       ///< empty: all
+    double longest_build_s = 240;                                ///< trees are built up to about this
+    int picture_size = 4096;                                     ///< map whose wrong pixels are painted
+};
+ShadowBenchPlan shadow_bench_plan(bool quick);
+
+/// Which parts of the bench to run.
+struct ShadowBenchParts {
+    bool times = true, accuracy = true, sizes = true;
+};
+
+/// The whole bench: measures, writes shadows*.csv, shadows.md, with gnuplot SVG charts, and a picture per
+/// scene into options.out. Returns an exit code. Throws OutputError.
+int bench_shadows(const BenchOptions& options, const ShadowBenchParts& parts = {});
+
+// Its parts, scene by scene.
+
+/// Lookup and build times of every method and thread count, each method in a process of its own. Call before
+/// this process starts any thread.
+std::vector<TimeRow> measure_shadow_times(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
+                                          const BenchOptions& options);
+
+/// Trees of the sizes of plan.tree_sizes, in this process.
+std::vector<SizeRow> measure_trees(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
+                                   const BenchOptions& options);
+
+/// Both constructions over the same intervals.
+std::vector<DirectionRow> measure_directions(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
+                                             const BenchOptions& options);
+
+/// Wrong pixels of every method and size; writes the scene's picture. Only with Embree.
+std::vector<AccuracyRow> measure_accuracy(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
+                                          const BenchOptions& options);
+
+}  // namespace obscura

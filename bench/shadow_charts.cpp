@@ -1,0 +1,230 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+
+#include "bench/gnuplot.h"
+#include "bench/shadow_report.h"
+
+namespace obscura {
+namespace {
+
+/// Okabe and Ito's colours and gnuplot's point types, as in the raster charts: ours are blue circles.
+struct Style {
+    const char* color;
+    int hollow, filled;
+};
+
+Style style_of(const std::string& method) {
+    if (method == compressed_name) return {"#0072B2", 6, 7};
+    if (method == dense_name) return {"#D55E00", 4, 5};
+    return {"#009E73", 8, 9};
+}
+
+template <class Row>
+std::vector<std::string> scenes_in(const std::vector<Row>& rows) {
+    std::vector<std::string> scenes;
+    for (const Row& row : rows) {
+        if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end()) scenes.push_back(row.scene);
+    }
+    return scenes;
+}
+
+/// A point of a line chart.
+struct Point {
+    double x, y;
+};
+
+/// One line: a method in a panel.
+struct Line {
+    std::string method;
+    std::vector<Point> points;
+};
+
+/// A chart of one panel per scene, three in a row, both axes logarithmic.
+struct PanelChart {
+    std::string title, note, x_label, y_label;
+    std::string x_tics;  ///< gnuplot commands for the axis
+    std::vector<std::pair<std::string, std::vector<Line>>> panels;
+};
+
+std::string panel_script(const PanelChart& chart) {
+    const auto count = static_cast<int>(chart.panels.size());
+    const int columns = std::min(count, 3), rows = (count + columns - 1) / columns;
+    const double height = 110.0 + 290.0 * rows, width = 60.0 + 370.0 * columns;
+    const double top = 80 / height, bottom = 30 / height;
+    std::string script = fmt::format(
+        "set terminal svg size {:.0f},{:.0f} dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
+        "set multiplot\n"
+        "set label 1 {} at screen 0.5,{:.4f} center font ',17'\n"
+        "set label 2 {} at screen 0.5,{:.4f} center tc rgb '#333333'\n"
+        "set logscale xy\nset format y '%g'\nset tics nomirror\nset border 3 lc rgb '#888888'\n"
+        "set grid lt 1 lc rgb '#dddddd' lw 0.6\nset key bottom left samplen 1\n{}\n",
+        width, height, gnuplot_text(chart.title), 1 - 26 / height, gnuplot_text(chart.note), 1 - 50 / height,
+        chart.x_tics);
+    for (int i = 0; i < count; ++i) {
+        const auto& [scene, lines] = chart.panels[static_cast<std::size_t>(i)];
+        const double cell_w = 1.0 / columns, cell_h = (1 - top - bottom) / rows;
+        script +=
+            fmt::format("set origin {:.4f},{:.4f}\nset size {:.4f},{:.4f}\nset title {} offset 0,-0.6\n",
+                        (i % columns) * cell_w, 1 - top - (i / columns + 1) * cell_h, cell_w, cell_h,
+                        gnuplot_text(scene));
+        script +=
+            fmt::format("set xlabel {} offset 0,0.4\nset ylabel {} offset 1,0\n", gnuplot_text(chart.x_label),
+                        gnuplot_text(i % columns == 0 ? chart.y_label : ""));
+        std::string plot;
+        for (std::size_t l = 0; l < lines.size(); ++l) {
+            script += fmt::format("$p{}_{} << EOD\n", i, l);
+            for (const Point& p : lines[l].points)
+                script += fmt::format("{:.6g} {:.6g}\n", p.x, p.y);
+            script += "EOD\n";
+            const Style style = style_of(lines[l].method);
+            plot += fmt::format("{} $p{}_{} with linespoints lw 1.6 ps 0.7 pt {} lc rgb '{}' title {}",
+                                plot.empty() ? "plot" : ",", i, l, style.filled, style.color,
+                                gnuplot_text(lines[l].method));
+        }
+        script += plot + "\nunset label\n";
+    }
+    return script + "unset multiplot\n";
+}
+
+std::string size_tics() {
+    std::string tics = "set xtics (";
+    for (int size = 1024; size <= 1 << 20; size *= 4)
+        tics += fmt::format("{}'{}' {}", size == 1024 ? "" : ", ", size_name(size), size);
+    return tics + ")";
+}
+
+/// A panel per scene; `x_of` picks the abscissa of a row.
+PanelChart accuracy_chart(const std::vector<AccuracyRow>& rows,
+                          const std::function<double(const AccuracyRow&)>& x_of) {
+    PanelChart chart;
+    chart.y_label = "wrong pixels, %";
+    for (const std::string& scene : scenes_in(rows)) {
+        std::vector<Line> lines;
+        for (const AccuracyRow& row : rows) {
+            if (row.scene != scene || row.wrong.wrong == 0) continue;
+            if (lines.empty() || lines.back().method != row.method) lines.push_back({row.method, {}});
+            lines.back().points.push_back({x_of(row), 100 * row.wrong.fraction()});
+        }
+        if (!lines.empty()) chart.panels.emplace_back(scene, std::move(lines));
+    }
+    return chart;
+}
+
+PanelChart tree_chart(const std::vector<SizeRow>& rows) {
+    PanelChart chart;
+    chart.title = "Memory of trees and of dense maps";
+    chart.note = "Four bytes per texel of dense maps; both axes logarithmic.";
+    chart.x_label = "texels a side";
+    chart.y_label = "MB";
+    chart.x_tics = size_tics();
+    for (const std::string& scene : scenes_in(rows)) {
+        Line tree{compressed_name, {}}, dense{dense_name, {}};
+        for (const SizeRow& row : rows) {
+            if (row.scene != scene || !row.problem.empty()) continue;
+            tree.points.push_back({static_cast<double>(row.size), static_cast<double>(row.words24) * 1e-6});
+            dense.points.push_back(
+                {static_cast<double>(row.size), 4e-6 * row.size * static_cast<double>(row.size)});
+        }
+        if (!tree.points.empty()) chart.panels.push_back({scene, {dense, tree}});
+    }
+    return chart;
+}
+
+/// A line of the chart of lookups: a scene's heading (no rows), or one job of one method.
+struct RateLine {
+    std::string label, method;
+    std::vector<const TimeRow*> rows;  ///< one per thread count
+};
+
+std::vector<RateLine> rate_lines(const std::vector<TimeRow>& rows) {
+    std::vector<RateLine> lines;
+    for (const std::string& scene : scenes_in(rows)) {
+        lines.push_back({scene, "", {}});
+        const auto first = static_cast<std::ptrdiff_t>(lines.size());
+        for (const TimeRow& row : rows) {
+            if (row.scene != scene || row.rate() <= 0) continue;
+            const std::string label = fmt::format("{}, {}", method_name(row.method, row.size), row.job);
+            const auto same = std::find_if(lines.begin() + first, lines.end(),
+                                           [&](const RateLine& line) { return line.label == label; });
+            if (same == lines.end()) {
+                lines.push_back({label, row.method, {&row}});
+            } else {
+                same->rows.push_back(&row);
+            }
+        }
+    }
+    return lines;
+}
+
+/// Canvas, axis and titles for `count` lines.
+std::string lookup_frame(std::size_t count) {
+    const double lines = static_cast<double>(count), height = 130.0 + 18.0 * lines;
+    return fmt::format(
+        "set terminal svg size 1000,{:.0f} dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
+        "set label {} at screen 0.5,{:.4f} center font ',17'\n"
+        "set label 'Medians. Hollow: one thread; filled: more. Further right is faster.' at screen "
+        "0.02,{:.4f} tc rgb '#333333'\n"
+        "set lmargin screen 0.30\nset rmargin screen 0.95\nset tmargin screen {:.4f}\nset bmargin screen "
+        "{:.4f}\nset logscale x\nset format x '%g'\nset xtics (1,2,5,10,20,50,100,200,500,1000)\n"
+        "set tics nomirror\nunset ytics\nset border 1 lc rgb '#888888'\n"
+        "set grid xtics lt 1 lc rgb '#c8c8c8' lw 0.8\nset xlabel 'million lookups per second and thread "
+        "(logarithmic)'\nset yrange [{:.1f}:0.2]\n",
+        height, gnuplot_text("Shadow lookups at the pixels of a 1920 x 1080 picture"), 1 - 22 / height,
+        1 - 48 / height, 1 - 62 / height, 58 / height, lines + 0.8);
+}
+
+std::string lookup_script(const std::vector<TimeRow>& rows) {
+    const std::vector<RateLine> lines = rate_lines(rows);
+    std::string script = lookup_frame(lines.size()), plot;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const bool heading = lines[i].rows.empty();
+        const Style style = style_of(lines[i].method);
+        script += fmt::format("set label {} at screen {}, first {} {} tc rgb '{}'{}\n",
+                              gnuplot_text(lines[i].label), heading ? 0.02 : 0.29, i + 1,
+                              heading ? "left" : "right", heading ? "#000000" : style.color,
+                              heading ? " font ',14'" : "");
+        for (const TimeRow* row : lines[i].rows) {
+            const std::string block = fmt::format("$r{}_{}", i, row->threads);
+            script += fmt::format("{} << EOD\n{:.4f} {}\nEOD\n", block, row->rate(), i + 1);
+            plot +=
+                fmt::format("{} {} with points ps 0.8 pt {} lc rgb '{}' notitle", plot.empty() ? "plot" : ",",
+                            block, row->threads == 1 ? style.hollow : style.filled, style.color);
+        }
+    }
+    return plot.empty() ? std::string() : script + plot + '\n';
+}
+
+}  // namespace
+
+void draw_shadow_charts(const ShadowResults& results, const BenchOptions& options) {
+    if (!has_gnuplot()) {
+        options.say("gnuplot is not installed (package gnuplot-nox): tables only, no charts");
+        return;
+    }
+    PanelChart by_size = accuracy_chart(results.accuracy,
+                                        [](const AccuracyRow& row) { return static_cast<double>(row.size); });
+    by_size.title = "Wrong shadows against the size of the map";
+    by_size.note =
+        "Pixels of a 1920 x 1080 picture that differ from exact shadow rays; both axes logarithmic.";
+    by_size.x_label = "texels a side";
+    by_size.x_tics = size_tics();
+    PanelChart by_bytes = accuracy_chart(
+        results.accuracy, [](const AccuracyRow& row) { return static_cast<double>(row.bytes) * 1e-6; });
+    by_bytes.title = "Wrong shadows against memory";
+    by_bytes.note = by_size.note;
+    by_bytes.x_label = "MB";
+    by_bytes.x_tics = "set format x '%g'";
+    if (!by_size.panels.empty()) {
+        run_gnuplot(panel_script(by_size), options.out / "shadows_accuracy.svg");
+        run_gnuplot(panel_script(by_bytes), options.out / "shadows_bytes.svg");
+    }
+    const PanelChart trees = tree_chart(results.sizes);
+    if (!trees.panels.empty()) run_gnuplot(panel_script(trees), options.out / "shadows_trees.svg");
+    const std::string lookups = lookup_script(results.times);
+    if (!lookups.empty()) run_gnuplot(lookups, options.out / "shadows_lookups.svg");
+}
+
+}  // namespace obscura

@@ -1,0 +1,30 @@
+#pragma once
+// Results of the shadow bench as files: CSV for programs, Markdown for people.
+
+#include <string>
+
+#include "bench/raster_bench.h"
+#include "bench/shadow_results.h"
+
+namespace obscura {
+
+/// "4096", "64k", "1M".
+std::string size_name(int size);
+/// "dense 16k", "compressed 256k", "Embree".
+std::string method_name(const std::string& method, int size);
+
+std::string accuracy_csv(const std::vector<AccuracyRow>& rows);
+std::string times_csv(const std::vector<TimeRow>& rows);
+std::string trees_csv(const std::vector<SizeRow>& rows);
+std::string directions_csv(const std::vector<DirectionRow>& rows);
+std::string shadow_markdown(const ShadowResults& results, const BenchOptions& options);
+
+/// Writes shadows.md and shadows_{accuracy,times,trees,directions}.csv, those that have rows, into
+/// options.out. Throws OutputError.
+void write_shadow_report(const ShadowResults& results, const BenchOptions& options);
+
+/// Writes shadows_{accuracy,bytes,lookups,trees}.svg, those that have something to show. Without gnuplot says
+/// so and draws nothing.
+void draw_shadow_charts(const ShadowResults& results, const BenchOptions& options);
+
+}  // namespace obscura
