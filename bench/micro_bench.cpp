@@ -1,4 +1,4 @@
-// Stages of the rasterizer one by one, with Google Benchmark: where the time of a map goes.
+// Stages of the rasterizer and lookups in trees one by one, with Google Benchmark: where the time goes.
 //   build/release/bench/obscura_micro_bench --benchmark_filter=city
 
 #include <benchmark/benchmark.h>
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bench/bench_recipes.h"
+#include "bench/micro_trees.h"
 #include "core/topology.h"
 #include "raster/depth_map.h"
 #include "raster/interval_map.h"
@@ -96,6 +97,7 @@ void add_all() {
     add("Bin", Bin);
     add("DepthMap", DepthMap);
     add("IntervalMap", IntervalMap);
+    add_tree_benchmarks();
 }
 
 }  // namespace obscura

@@ -96,6 +96,20 @@ OBSCURA_INLINE I32 shift_right(const I32& a, std::int32_t bits) {
     }
     return v;
 }
+OBSCURA_INLINE I32 shift_left(const I32& a, std::int32_t bits) {
+    I32 v;
+    const __m128i count = _mm_cvtsi32_si128(bits);
+    for (int k = 0; k < I32::regs; ++k) {
+#if defined(OBSCURA_ISA_avx512bw)
+        v.r[k] = I32::Reg(_mm512_sll_epi32(a.r[k], count));
+#elif defined(OBSCURA_ISA_avx2)
+        v.r[k] = I32::Reg(_mm256_sll_epi32(a.r[k], count));
+#else
+        v.r[k] = I32::Reg(_mm_sll_epi32(a.r[k], count));
+#endif
+    }
+    return v;
+}
 /// Every lane by its own number of bits, 0 to 31; fills with zeros from above.
 OBSCURA_INLINE I32 shift_right_logical(const I32& a, const I32& bits) {
     I32 v;

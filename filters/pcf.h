@@ -18,17 +18,23 @@
 // the solid however thin that is; with one depth for all texels, a slab thinner than texel x slope shades
 // itself. What stands before the plane still shades it. Never deeper than the receiver: behind a thin wall
 // that stands on lit ground the ground's plane goes on, and would find itself in the wall's shadow.
+//
+// The stored depths come from a dense map or from a serialised tree (filters/tree_pcf.h). Trees can also be
+// filtered hierarchically: see PcfFilter.
 
 #include <cstdint>
 
+#include "hierarchy/tree_code.h"
+#include "raster/camera_rays.h"
 #include "raster/gbuffer.h"
 
 namespace obscura {
 
 /// One view of a shadow map, for receivers relative to the eye.
 struct PcfView {
-    double to_map[4][4];            ///< LightView::to_map after the shift by the eye
-    const float* stored = nullptr;  ///< size x size depths, in blocks as StoredDepths has them
+    double to_map[4][4];             ///< LightView::to_map after the shift by the eye
+    const float* stored = nullptr;   ///< size x size depths, in blocks as StoredDepths has them; or null and
+    const TreeCode* tree = nullptr;  ///< a tree of 2^levels = size texels a side
     std::int32_t size = 0;
     bool perspective = false;
     double near_w = 0;    ///< perspective: receivers nearer than this are lit
@@ -46,14 +52,32 @@ constexpr float pcf_least_cosine = 1.0f / 64.0f;
 /// share: in coarse maps far receivers would else be moved past the light.
 constexpr float pcf_nearest_offset = 0.25f;
 
+/// pcf: kernels of texels, whatever a pixel spans on the map. hierarchical (trees only): kernels of squares
+/// of 2^l texels, as large as the pixel's footprint there, blended between the two levels around it.
+///
+/// The footprint is the longer of the two vectors by which the pixel's neighbours to the right and below are
+/// apart on the map, on the plane of the receiver: f texels, at least 1. With l = floor(log2 f), visibility
+/// is (1 - t) V(l) + t V(l + 1), t = f / 2^l - 1. V(l) is the kernel above on the map of squares, whose
+/// stored depths are those of a descent that stops at level l: depths that suit some texel of the square, not
+/// all. So the receiver's plane is taken where it is nearest to the light among the texel centres of a tap's
+/// square: at its middle, less (|dZ/dX| + |dZ/dY|) (2^l - 1) / 2. A lit plane whose square stores the depth
+/// of any one of its texels then finds itself lit, and at level 0 there is no bias. (The authors' demo
+/// subtracts 5e-5 (l^2 + 1) of the depth range instead.)
+enum class PcfFilter : std::int32_t { pcf, hierarchical };
+
+/// Largest kernel side on trees; dense maps have 1, 3 and 5.
+constexpr std::int32_t max_tree_pcf_side = 15;
+
 /// A light as its shadow lookups see it.
 struct PcfLight {
     PcfView view[6];
     std::int32_t views = 1;  ///< 1, or 6: the one that cube_face() names for the receiver
-    std::int32_t side = 3;   ///< kernel side: 1, 3 or 5 texels
+    std::int32_t side = 3;   ///< kernel side: 1, 3 or 5 texels; on trees any odd number to 15
     bool directional = true;
     float to_light[3] = {0, 1, 0};  ///< directional: unit
     float position[3] = {0, 0, 0};  ///< otherwise; relative to the eye
+    PcfFilter filter = PcfFilter::pcf;
+    CameraRays camera = {};  ///< hierarchical: what gives pixels their footprint
 };
 
 /// visibility[i] in [0, 1] of every sample of the block: 0 where nothing is covered, and without a lookup

@@ -71,4 +71,23 @@ PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye) {
     return p;
 }
 
+PcfLight pcf_light(const Light& light, std::span<const ShadowTree> trees, Vec3d eye) {
+    std::vector<LightView> views;
+    for (const ShadowTree& tree : trees)
+        views.push_back(tree.view);
+    PcfLight p = pcf_light(light, views, eye);
+    CHECK(p.side % 2 == 1 && p.side >= 1 && p.side <= max_tree_pcf_side);
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        CHECK(p.view[i].size == 1 << trees[i].code.levels);
+        p.view[i].tree = &trees[i].code;
+    }
+    return p;
+}
+
+void filter_hierarchically(PcfLight& light, const CameraRays& camera) {
+    CHECK(light.view[0].tree != nullptr, "dense maps have one level");
+    light.filter = PcfFilter::hierarchical;
+    light.camera = camera;
+}
+
 }  // namespace obscura

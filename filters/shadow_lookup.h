@@ -1,11 +1,13 @@
 #pragma once
-// From a light and its shadow map to what the lookups read, and one lookup with everything it saw.
+// From a light and its shadow map or trees to what the lookups read, and one lookup with everything it saw.
 
 #include <span>
 #include <vector>
 
 #include "core/scene.h"
 #include "filters/pcf.h"
+#include "filters/pcf_place.h"
+#include "hierarchy/shadow_tree.h"
 #include "raster/shadow_map.h"
 
 namespace obscura {
@@ -16,22 +18,19 @@ PcfLight pcf_light(const Light& light, std::span<const LightView> views, Vec3d e
 /// `map` must outlive the result. `eye`: the point that receivers are relative to.
 PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye);
 
+/// The same with trees of the light's views, one or six, square; they must outlive the result.
+/// light.shadow.filter_px may be any odd number from 1 to max_tree_pcf_side.
+PcfLight pcf_light(const Light& light, std::span<const ShadowTree> trees, Vec3d eye);
+
+/// Turns a light with trees to hierarchical filtering, for pictures of that camera.
+void filter_hierarchically(PcfLight& light, const CameraRays& camera);
+
 namespace ref {
 
-/// Where the lookup of a sample falls.
-struct PcfPlace {
-    /// nothing_there: not covered. turned_away: dark without a lookup. before_near: lit without one.
-    enum Kind { nothing_there, turned_away, before_near, on_map } kind = nothing_there;
-    int view = 0;
-    double X = 0, Y = 0;             ///< texels, not farther off the map than 8
-    float depth = 0;                 ///< of the receiver
-    float slope_x = 0, slope_y = 0;  ///< of its plane: depth per texel
-};
-PcfPlace pcf_place(const SurfaceBlock& surface, const PcfLight& light, int at);
-
-/// One texel that a lookup asked.
+/// One texel that a lookup asked, or a square of 2^level texels.
 struct PcfTap {
-    std::int32_t x = 0, y = 0;
+    std::int32_t x = 0, y = 0;  ///< in squares of that level
+    int level = 0;
     float weight = 0;
     bool inside = false;  ///< of the map; outside (parallel light only) counts as lit
     float receiver = 0;   ///< depth of the receiver's plane there, at most that of the receiver
@@ -39,17 +38,28 @@ struct PcfTap {
     bool lit = true;
 };
 
+/// Nodes of a tree that one lookup visits when nothing is known from its neighbours.
+struct PcfSteps {
+    int naive = 0;   ///< every tap from the root
+    int shared = 0;  ///< the taps' common way once, and from tap to tap what is new
+};
+
 /// Everything about the lookup of sample `at`.
 struct PcfTrace {
     bool looked_up =
         false;  ///< false: nothing there, faces away (visibility 0), or before the near plane (1)
     int view = 0;
-    double X = 0, Y = 0;  ///< texels
-    float depth = 0;      ///< of the receiver
-    std::vector<PcfTap> taps;
+    double X = 0, Y = 0;       ///< texels
+    float depth = 0;           ///< of the receiver
+    float footprint = 1;       ///< hierarchical: texels that the pixel spans
+    std::vector<PcfTap> taps;  ///< side x side; hierarchical between two levels: those of the coarser follow
     float visibility = 0;
+    PcfSteps steps;  ///< trees only
 };
 PcfTrace trace_pcf(const SurfaceBlock& surface, const PcfLight& light, int at);
+
+/// trace_pcf(...).steps alone: what a picture of the paper's figure 6 shows of every sample.
+PcfSteps pcf_steps(const SurfaceBlock& surface, const PcfLight& light, int at);
 
 }  // namespace ref
 }  // namespace obscura

@@ -84,7 +84,7 @@ OBSCURA_INLINE void descend_groups(const TreeCode& tree, const Group16 (&group)[
             inner = inner | d[k].inner;
         if (none(inner)) break;
         for (int k = 0; k < n; ++k)
-            descend<Units>(tree, base, height, group[k].x, group[k].y, d[k]);
+            descend<Units>(tree, base, height, child_bit(height, group[k].x, group[k].y), d[k]);
     }
     for (int k = 0; k < n; ++k)
         stored[k] = values<Units>(base, d[k]);

@@ -46,13 +46,17 @@ OBSCURA_INLINE I32 units_of(const I32& below) {
     return small_table(units, below & splat(std::int32_t{15})) + small_table(units, shift_right<4>(below));
 }
 
-/// One level down, from nodes of height `height` (>= 1), towards texels (x, y).
+/// Which child holds texels (x, y), seen from nodes of height `height` (>= 1): the first bit of its kind.
+OBSCURA_INLINE I32 child_bit(int height, const I32& x, const I32& y) {
+    return (shift_right(shift_left<1>(x), height - 1) & splat(std::int32_t{2})) |
+           (shift_right(shift_left<2>(y), height - 1) & splat(std::int32_t{4}));
+}
+
+/// One level down, from nodes of height `height` (>= 1) to the children that child_bit() names.
 template <class Units>
-OBSCURA_INLINE void descend(const TreeCode& tree, const std::uint8_t* base, int height, const I32& x,
-                            const I32& y, Descents16& d) {
+OBSCURA_INLINE void descend(const TreeCode& tree, const std::uint8_t* base, int height, const I32& bit,
+                            Descents16& d) {
     const I32 header = gather_bytes<static_cast<int>(Units::unit_bytes)>(base, d.node);
-    const I32 bit = (shift_right(shift_left<1>(x), height - 1) & splat(std::int32_t{2})) |
-                    (shift_right(shift_left<2>(y), height - 1) & splat(std::int32_t{4}));
     const I32 kind = shift_right_logical(header, bit);
     const I32 below = header & shift_right_logical(splat(std::int32_t{0x3f}), splat(std::int32_t{6}) - bit);
     I32 offset = shift_right_logical<8>(header);
@@ -77,7 +81,7 @@ template <class Units>
 OBSCURA_INLINE void descend_to(const TreeCode& tree, const std::uint8_t* base, int height, int stop,
                                const I32& x, const I32& y, Descents16& d) {
     for (; height > stop && any(d.inner); --height)
-        descend<Units>(tree, base, height, x, y, d);
+        descend<Units>(tree, base, height, child_bit(height, x, y), d);
 }
 
 template <class Units>

@@ -1,0 +1,165 @@
+#pragma once
+// What sixteen samples of a row ask of a light's map. Kernel files only; the meaning of each step is in
+// filters/pcf_place.cpp.
+
+#include "core/simd_vec.h"
+#include "filters/pcf.h"
+
+namespace obscura::OBSCURA_ISA {
+namespace {
+
+struct Receivers16 {
+    Mask before_near;
+    F64 X, Y;
+    F32 depth, slope_x, slope_y;
+    F32 footprint;  ///< hierarchical
+};
+
+struct Moved16 {
+    F64 x, y, z;
+    Vec3x16 n, to_light;
+    OBSCURA_INLINE F64 row(const double (&m)[4]) const {
+        return (splat(m[0]) * x + splat(m[1]) * y) + (splat(m[2]) * z + splat(m[3]));
+    }
+};
+
+OBSCURA_INLINE Vec3x16 towards(const PcfLight& light, const Vec3x16& p) {
+    return light.directional ? splat3(light.to_light) : splat3(light.position) - p;
+}
+
+OBSCURA_INLINE F64 axial_distance(const PcfLight& light, const Moved16& p) {
+    if (light.views == 1) return light.view[0].perspective ? p.row(light.view[0].to_map[3]) : splat(1.0);
+    const Vec3x16& l = p.to_light;
+    return to_f64(max(max(abs(l.x), abs(l.y)), abs(l.z)));
+}
+
+/// Moves the lanes of `open`.
+OBSCURA_INLINE Moved16 move(const PcfLight& light, const Vec3x16& p, const Vec3x16& n,
+                            const Vec3x16& to_light, std::uint32_t open) {
+    Moved16 m{to_f64(p.x), to_f64(p.y), to_f64(p.z), n, to_light};
+    if (open == 0) return m;
+    F64 offset = splat(light.view[0].offset_m) * axial_distance(light, m);
+    if (!light.directional) offset = min(offset, to_f64(splat(pcf_nearest_offset) * dot(n, to_light)));
+    const Vec3x16 way = select(mask_of(open), n, splat3(0.0f, 0.0f, 0.0f));
+    m.x = m.x + to_f64(way.x) * offset;
+    m.y = m.y + to_f64(way.y) * offset;
+    m.z = m.z + to_f64(way.z) * offset;
+    m.to_light = towards(light, {to_f32(m.x), to_f32(m.y), to_f32(m.z)});
+    return m;
+}
+
+OBSCURA_INLINE Receivers16 place(const PcfView& view, const Moved16& p) {
+    Receivers16 r;
+    F64 X = p.row(view.to_map[0]), Y = p.row(view.to_map[1]), Z = p.row(view.to_map[2]);
+    r.before_near = mask_of(0);
+    if (view.perspective) {
+        const F64 w = p.row(view.to_map[3]);
+        const F64 inv = splat(1.0) / w;
+        X = X * inv;
+        Y = Y * inv;
+        Z = Z * inv;
+        r.before_near = ~greater_equal(w, splat(view.near_w));
+    }
+    const F64 low = splat(-8.0), high = splat(static_cast<double>(view.size) + 8.0);
+    r.X = min(max(X, low), high);
+    r.Y = min(max(Y, low), high);
+    r.depth = min(to_f32(Z), splat(1.0f));
+    const F32 least = splat(pcf_least_cosine) * sqrt(dot(p.to_light, p.to_light));
+    const F32 inv_nl = splat(1.0f) / max(dot(p.n, p.to_light), least);
+    r.slope_x = dot(p.n, splat3(view.slope_x)) * inv_nl;
+    r.slope_y = dot(p.n, splat3(view.slope_y)) * inv_nl;
+    return r;
+}
+
+OBSCURA_INLINE F32 tap_weight(int k, int side, const F32& f) {
+    if (side == 1) return splat(1.0f);
+    if (k == 0) return splat(1.0f) - f;
+    return k == side - 1 ? f : splat(1.0f);
+}
+
+OBSCURA_INLINE Mask between(const I32& a, std::int32_t low, std::int32_t high) {
+    return less_equal(splat(low), a) & less_equal(a, splat(high));
+}
+OBSCURA_INLINE I32 clamped(const I32& a, std::int32_t low, std::int32_t high) {
+    return min(max(a, splat(low)), splat(high));
+}
+
+/// Twin of cube_face() (raster/view.h).
+OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
+    const F32 ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero = splat(0.0f);
+    const auto face = [&](const F32& along, std::int32_t positive) {
+        return select(less_equal(zero, along), splat(positive), splat(positive + 1));
+    };
+    const I32 y_or_z = select(less_equal(az, ay), face(d.y, 2), face(d.z, 4));
+    return select(less_equal(ay, ax) & less_equal(az, ax), face(d.x, 0), y_or_z);
+}
+
+/// Square of the way on the map that a step on the receiver's plane makes.
+OBSCURA_INLINE F64 squared_way(const PcfView& view, const Moved16& p, const Receivers16& r,
+                               const Vec3x16& step) {
+    const F64 sx = to_f64(step.x), sy = to_f64(step.y), sz = to_f64(step.z);
+    const auto along = [&](const double(&m)[4]) {
+        return (splat(m[0]) * sx + splat(m[1]) * sy) + splat(m[2]) * sz;
+    };
+    F64 dx = along(view.to_map[0]), dy = along(view.to_map[1]);
+    if (view.perspective) {
+        const F64 w = p.row(view.to_map[3]), dw = along(view.to_map[3]);
+        dx = (dx - r.X * dw) / w;
+        dy = (dy - r.Y * dw) / w;
+    }
+    return dx * dx + dy * dy;
+}
+
+OBSCURA_INLINE Vec3x16 splat_vec(const double (&v)[3]) {
+    return splat3(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+}
+
+OBSCURA_INLINE F32 footprint_of(const CameraRays& rays, const PcfView& view, const Vec3x16& p,
+                                const Vec3x16& g, const F32& depth, const Moved16& moved,
+                                const Receivers16& r) {
+    const F32 z =
+        rays.perspective ? splat(rays.z_scale) / depth : splat(rays.z_scale) * depth + splat(rays.z_near);
+    const Vec3x16 way = rays.perspective ? p : splat_vec(rays.dir0);
+    const F32 facing = min(dot(g, way), splat(-0.0f) ^ (splat(pcf_least_cosine) * sqrt(dot(way, way))));
+    const auto step = [&](const double(&dir)[3], const double(&origin)[3]) {
+        const Vec3x16 a = rays.perspective ? splat_vec(dir) * z : splat_vec(origin);
+        return a - way * (dot(g, a) / facing);
+    };
+    const F64 right = squared_way(view, moved, r, step(rays.dir_x, rays.origin_x));
+    const F64 down = squared_way(view, moved, r, step(rays.dir_y, rays.origin_y));
+    const F32 longer = sqrt(to_f32(max(right, down)));
+    return min(max(longer, splat(1.0f)), splat(static_cast<float>(view.size)));
+}
+
+/// Visibility of samples at .. at + 15; lookup(view, receivers, active) answers for the active lanes of one
+/// view, and may return anything in the others.
+template <class Lookup>
+OBSCURA_INLINE F32 group_visibility(const SurfaceBlock& s, const PcfLight& light, int at, Lookup&& lookup) {
+    const std::uint32_t covered = s.covered[at / 16];
+    F32 visibility = splat(0.0f);
+    if (covered == 0) return visibility;
+    const Vec3x16 p = load3(s.px + at, s.py + at, s.pz + at), g = load3(s.gx + at, s.gy + at, s.gz + at);
+    const Vec3x16 l = towards(light, p);
+    const F32 cosine = dot(g, l);
+    const Mask asking = mask_of(covered) & (less(splat(0.0f), cosine) | mask_of(s.thin[at / 16]));
+    if (none(asking)) return visibility;
+
+    const Moved16 moved = move(light, p, negated(less(cosine, splat(0.0f)), g), l, s.open[at / 16]);
+    const I32 face =
+        light.views == 6 ? cube_faces(negated(mask_of(0xffffu), moved.to_light)) : splat(std::int32_t{0});
+    for (std::int32_t f = 0; f < light.views; ++f) {
+        const Mask active = asking & equal(face, splat(f));
+        if (none(active)) continue;
+        const PcfView& view = light.view[f];
+        Receivers16 r = place(view, moved);
+        if (light.filter == PcfFilter::hierarchical) {
+            r.footprint = footprint_of(light.camera, view, p, g, load(s.depth + at), moved, r);
+        }
+        const F32 seen = select(r.before_near, splat(1.0f), lookup(f, r, active));
+        visibility = select(active, seen, visibility);
+    }
+    return visibility;
+}
+
+}  // namespace
+}  // namespace obscura::OBSCURA_ISA
