@@ -81,7 +81,7 @@ TEST_P(TreePcf, EqualsTheDenseMapAtEveryAlignmentAndBorder) {
                 PcfLight dense = chosen::light_above(size, side, parallel), light = dense;
                 dense.view[0].stored = m.map.depth.data();
                 const Visibility expected = by_map(blocks, dense);
-                if (side > 1) {
+                if (side > 1 && size > 4) {
                     EXPECT_GT(between_light_and_dark(expected), 20);
                 }
                 for (const TreeLayout layout :
@@ -190,18 +190,19 @@ TEST(TreePcfScenes, LightsOfEveryKindSeeWhatTheirDenseMapsShow) {
 
             // A trace tells the same, and that sharing saves steps.
             long naive = 0, shared = 0;
-            for (int at = 0; at < block_samples; at += 7) {
-                const std::size_t b = blocks.size() / 2;
-                const ref::PcfTrace trace = ref::trace_pcf(blocks[b], by_trees, at);
-                EXPECT_EQ(trace.visibility, expected[b * block_samples + static_cast<std::size_t>(at)]);
-                const ref::PcfSteps steps = ref::pcf_steps(blocks[b], by_trees, at);
+            for (std::size_t i = 0; i < expected.size(); i += 61) {
+                const SurfaceBlock& block = blocks[i / block_samples];
+                const auto at = static_cast<int>(i % block_samples);
+                const ref::PcfTrace trace = ref::trace_pcf(block, by_trees, at);
+                EXPECT_EQ(trace.visibility, expected[i]);
+                const ref::PcfSteps steps = ref::pcf_steps(block, by_trees, at);
                 EXPECT_EQ(steps.naive, trace.steps.naive);
                 EXPECT_LE(steps.shared, steps.naive);
                 naive += steps.naive;
                 shared += steps.shared;
             }
             EXPECT_GT(naive, 0);
-            EXPECT_LT(side * shared, side == 1 ? naive + 1 : naive) << "side " << side;
+            EXPECT_LE((side == 1 ? 1 : 3) * shared, naive) << "side " << side;
         }
     }
 }
