@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "hierarchy/square_builder.h"
+#include "raster/layer_tile.h"
 
 namespace obscura {
 namespace {
@@ -65,8 +66,6 @@ class Forest {
         std::unique_ptr<Quadtree> below;  ///< what a worker made of it; its root is `part`
         std::vector<BuildSquare> trace;
     };
-    static constexpr std::size_t enough = 256;
-    static constexpr std::int32_t smallest = 64;
 
     /// A worker from the pool: their working memory is as large as the scene.
     class Lease {
@@ -117,7 +116,8 @@ class Forest {
         std::size_t open = 0;
         for (std::size_t i = begin; i < end; ++i)
             open += !nodes_[i].part;
-        if (cancelled() || open == 0 || open >= enough || nodes_[begin].site.square.side <= smallest)
+        if (cancelled() || open == 0 || open >= params_.tuning.open_squares ||
+            nodes_[begin].site.square.side <= params_.tuning.smallest_task)
             return false;
         parallel_for(end - begin, exec_, [&](std::size_t i) {
             Node& node = nodes_[begin + i];
@@ -218,6 +218,10 @@ MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const Bu
     CHECK(view.width == view.height && std::has_single_bit(static_cast<unsigned>(view.width)) &&
               view.width <= 1 << 20,
           "a hierarchy needs a square power-of-two map");
+    const BuildTuning& t = params.tuning;
+    CHECK(t.block_side >= 1 && t.block_side <= block_side && t.tile_side >= 1 &&
+              t.tile_side <= layer_tile_side && t.texels_per_facet >= 1 && t.smallest_task >= 1,
+          "tuning out of range");
     const Clock::time_point begin = Clock::now();
     const FacetSet set = facets_of(mesh, view, params.only_casters, exec);
     const double setup_s = seconds_since(begin);

@@ -2,6 +2,7 @@
 // The tree of a light view straight from triangles, without rasterizing every texel.
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,16 @@ struct BuildSquare {
     std::int32_t x0 = 0, y0 = 0, side = 1;
 };
 
+/// How work is cut into pieces. Nothing of it changes the tree; the defaults are fast.
+struct BuildTuning {
+    std::size_t open_squares = 256;      ///< upper squares are divided until so many are left to do
+    std::int32_t smallest_task = 64;     ///< but not below this side
+    std::int32_t block_side = 8;         ///< squares up to this side are rasterized: a power of two in [1, 8]
+    std::int32_t tile_side = 64;         ///< and dense lists in squares up to this one: in [1, 64]
+    std::int32_t texels_per_facet = 16;  ///< a list is dense where it has fewer texels than these
+    std::size_t longest_surface = 1024;  ///< longer lists are not searched for surfaces of several facets
+};
+
 struct BuildParams {
     Receivers receivers = Receivers::any;
     bool only_casters = true;
@@ -28,6 +39,7 @@ struct BuildParams {
     /// node for every few texels, and no estimate beforehand can tell.
     std::uint64_t max_nodes = UINT64_MAX;
     bool mesh_certificate = true;  ///< false: only single planes decide squares, to see what the rest gains
+    BuildTuning tuning;
     std::vector<BuildSquare>* trace = nullptr;  ///< receives every square that was visited, parents first
 };
 

@@ -10,9 +10,6 @@
 namespace obscura {
 namespace {
 
-/// Longer lists are not searched for surfaces of several facets: such squares are divided anyway.
-constexpr std::size_t longest_connected = 1024;
-
 float ulp(float z) {
     return std::nextafterf(z, 2.0f) - z;
 }
@@ -61,7 +58,7 @@ void Judge::connect(const Square& square, std::span<const Listed> list) {
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         if (list[i].covers_all()) continue;
-        if (!surfaces_ || count > longest_connected) {
+        if (count > longest_surface_) {
             groups_[i].torn = true;
             continue;
         }

@@ -5,6 +5,7 @@
 // Let K be the intersection of the intervals of all texels of a square. Where K is not empty, the bottom-up
 // construction gives the square exactly K and nothing below it. So a square is done as soon as K is known.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,9 +36,10 @@ struct Layer {
 /// Judges lists; keeps its working memory: one per thread.
 class Judge {
   public:
-    /// `surfaces`: look for surfaces of several facets, not only for single facets that cover all.
-    Judge(const FacetSet& set, Receivers receivers, bool surfaces)
-        : set_(set), receivers_(receivers), surfaces_(surfaces), slot_(set.facets.size()) {}
+    /// `longest_surface`: lists up to this long are searched for surfaces of several facets, in longer ones
+    /// only single facets that cover all count: such squares are divided anyway.
+    Judge(const FacetSet& set, Receivers receivers, std::size_t longest_surface)
+        : set_(set), receivers_(receivers), longest_surface_(longest_surface), slot_(set.facets.size()) {}
 
     /// `list` from `begin` on holds every facet that place() finds for `square`, but for those beyond an
     /// earlier `deepest`. Surfaces that cover none of the texels are removed from it.
@@ -77,7 +79,7 @@ class Judge {
 
     const FacetSet& set_;
     Receivers receivers_;
-    bool surfaces_;
+    std::size_t longest_surface_;
     std::vector<std::uint32_t> slot_;       ///< facet -> its place in the list, if that place holds it
     std::vector<std::uint32_t> parent_;     ///< per place: union-find
     std::vector<Group> groups_;             ///< per place that is a root

@@ -12,11 +12,12 @@ namespace obscura {
 namespace {
 
 /// Whether a square's list is so long that rasterizing it as one tile costs less than the facets' way through
-/// further divisions.
-bool dense(std::int32_t side, std::size_t count) {
-    if (side > layer_tile_side) return false;
+/// further divisions, or longer than a block can take.
+bool dense(std::int32_t side, std::size_t count, const BuildTuning& tuning) {
+    if (side <= tuning.block_side && count > block_facets) return true;
+    if (side > tuning.tile_side) return false;
     const auto texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    return count > (side <= 16 ? block_facets : texels / 16);
+    return count > (side <= 16 ? block_facets : texels / static_cast<std::size_t>(tuning.texels_per_facet));
 }
 
 }  // namespace
@@ -46,7 +47,10 @@ bool Site::value_only() const {
 }
 
 SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa)
-    : set_(set), params_(params), isa_(isa), judge_(set, params.receivers, params.mesh_certificate) {}
+    : set_(set),
+      params_(params),
+      isa_(isa),
+      judge_(set, params.receivers, params.mesh_certificate ? params.tuning.longest_surface : 0) {}
 
 std::optional<SquareBuilder::Part> SquareBuilder::decide(const Site& site, std::vector<Listed>& list,
                                                          std::size_t begin, float& deepest) {
@@ -91,9 +95,9 @@ SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
     if (const std::optional<Part> part = decide(site, list_, begin, deepest)) return *part;
     const std::size_t end = list_.size(), mark = tree.nodes.size();
     Part part;
-    if (dense(site.square.side, end - begin)) {
+    if (dense(site.square.side, end - begin, params_.tuning)) {
         part = rasterize_tile(site, begin);
-    } else if (site.square.side <= block_side) {
+    } else if (site.square.side <= params_.tuning.block_side) {
         part = rasterize_block(site, begin);
     } else {
         note(site, BuildSquare::divided);
