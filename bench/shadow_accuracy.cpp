@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "bench/shadow_bench.h"
@@ -10,6 +11,7 @@
 #include "core/file_output.h"
 #include "core/image_io.h"
 #include "core/parallel.h"
+#include "filters/shadow_lookup.h"
 
 namespace obscura {
 namespace {
@@ -52,6 +54,31 @@ AccuracyRow judge_map(Judge& judge, const char* method, int size, const BuiltSha
     return row;
 }
 
+/// Nodes that kernels of 5 x 5 visit, over every seventh sample that faces the light.
+void count_steps(const Judge& judge, const BuiltShadow& built, AccuracyRow& row) {
+    PcfLight light = built.light;
+    light.side = 5;
+    std::vector<ref::PcfSteps> sums(judge.points.blocks.size());
+    std::vector<int> counts(sums.size(), 0);
+    parallel_for(sums.size(), judge.exec, [&](std::size_t b) {
+        for (int at = static_cast<int>(b % 7); at < block_samples; at += 7) {
+            const ref::PcfSteps steps = ref::pcf_steps(judge.points.blocks[b], light, at);
+            if (steps.naive == 0) continue;
+            sums[b].naive += steps.naive;
+            sums[b].shared += steps.shared;
+            ++counts[b];
+        }
+    });
+    double count = 0;
+    for (std::size_t b = 0; b < sums.size(); ++b) {
+        row.naive_steps += sums[b].naive;
+        row.shared_steps += sums[b].shared;
+        count += counts[b];
+    }
+    row.naive_steps /= std::max(count, 1.0);
+    row.shared_steps /= std::max(count, 1.0);
+}
+
 /// Against the dense map of the same size, if there is one.
 void compare_with_dense(const Judge& judge, const std::vector<std::uint8_t>& kinds, AccuracyRow& row) {
     for (const auto& [size, dense] : judge.dense_kinds) {
@@ -89,8 +116,9 @@ std::vector<AccuracyRow> measure_accuracy(const ShadowRecipe& recipe, const Shad
     }
     for (const int size : plan.compressed_sizes) {
         std::vector<std::uint8_t> kinds;
-        rows.push_back(
-            judge_map(judge, compressed_name, size, build_compressed(judge.scene, size, judge.exec), kinds));
+        const BuiltShadow built = build_compressed(judge.scene, size, judge.exec);
+        rows.push_back(judge_map(judge, compressed_name, size, built, kinds));
+        count_steps(judge, built, rows.back());
         compare_with_dense(judge, kinds, rows.back());
     }
     return rows;

@@ -1,14 +1,19 @@
 #include "bench/shadow_methods.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <chrono>
 #include <memory>
-#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bench/dense_points.h"
-#include "bench/map_points.h"
 #include "filters/shadow_lookup.h"
+#include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
+#include "hierarchy/decode.h"
 #include "hierarchy/query.h"
 #include "hierarchy/shadow_tree.h"
 #include "raster/shadow_map.h"
@@ -22,25 +27,59 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Of the tree with a grid: 2^8 squared entries of 8 bytes, 512 KiB, which the second-level cache holds.
+constexpr std::int32_t top_grid_levels = 8;
+
 constexpr std::pair<const char*, int> kernels[] = {{"1 tap", 1}, {"3x3", 3}, {"5x5", 5}};
 
-/// A lookup with a kernel of one texel.
-void look_up_block(const ShadowTree& tree, const PcfLight& light, Isa isa, const SurfaceBlock& surface,
-                   float* visible) {
-    alignas(64) std::int32_t x[block_samples], y[block_samples];
-    alignas(64) float depth[block_samples];
-    alignas(64) std::uint16_t lit[block_groups];
-    std::uint32_t asked[block_groups] = {};
-    for (int at = 0; at < block_samples; ++at) {
-        const TestedTexel t = tested_texel(surface, light, at);
-        x[at] = t.x;
-        y[at] = t.y;
-        depth[at] = t.depth;
-        asked[at / 16] |= (t.looked_up ? 1u : 0u) << (at % 16);
+/// A tree, and the same with a dense top grid.
+struct BuiltTree {
+    std::vector<ShadowTree> plain, with_grid;  ///< one each: pcf_light() wants a span
+};
+
+void look_up(const PcfLight& light, Isa isa, bool naive, const SurfaceBlock& surface, float* visible) {
+    if (naive) {
+        OBSCURA_DISPATCH(isa, naive_tree_pcf_block, surface, light, visible);
+    } else {
+        OBSCURA_DISPATCH(isa, pcf_block, surface, light, visible);
     }
-    OBSCURA_DISPATCH(isa, visibility, tree.code, (MapPoints{x, y, depth, block_samples}), 0, lit);
-    for (int at = 0; at < block_samples; ++at)
-        visible[at] = (lit[at / 16] & asked[at / 16]) >> (at % 16) & 1 ? 1.0f : 0.0f;
+}
+
+std::vector<ShadowLookup> tree_lookups(const std::shared_ptr<const BuiltTree>& trees, const Light& light,
+                                       Vec3d eye, Isa isa) {
+    std::vector<ShadowLookup> lookups;
+    const auto add = [&](const std::string& name, const std::vector<ShadowTree>& tree, int side, bool naive) {
+        PcfLight pcf = pcf_light(light, tree, eye);
+        pcf.side = side;
+        lookups.push_back({name, [trees, pcf, isa, naive](const SurfaceBlock& surface, float* visible) {
+                               look_up(pcf, isa, naive, surface, visible);
+                           }});
+    };
+    for (const auto& [name, side] : kernels) {
+        add(name, trees->plain, side, false);
+        add(fmt::format("{}, top grid", name), trees->with_grid, side, false);
+        if (side > 1) add(fmt::format("{}, naive", name), trees->plain, side, true);
+    }
+    return lookups;
+}
+
+std::vector<PointLookup> tree_point_lookups(const std::shared_ptr<const BuiltTree>& trees, Isa isa) {
+    std::vector<PointLookup> lookups;
+    const auto add = [&](const std::string& name, const ShadowTree& tree, bool coherent) {
+        lookups.push_back(
+            {name, [trees, code = &tree.code, isa, coherent](const MapPoints& points, std::uint16_t* lit) {
+                 if (coherent) {
+                     OBSCURA_DISPATCH(isa, coherent_visibility, *code, points, 0, lit);
+                 } else {
+                     OBSCURA_DISPATCH(isa, visibility, *code, points, 0, lit);
+                 }
+             }});
+    };
+    add("points", trees->plain[0], false);
+    add("points, coherent", trees->plain[0], true);
+    add("points, top grid", trees->with_grid[0], false);
+    add("points, top grid, coherent", trees->with_grid[0], true);
+    return lookups;
 }
 
 }  // namespace
@@ -82,27 +121,20 @@ BuiltShadow build_compressed(const Scene& scene, int size, const Exec& exec) {
     const Light light = shadow_light(scene, size, 1);
     const auto start = Clock::now();
     const LightView view = shadow_views(light, bounds_of(scene.mesh))[0];
-    const auto tree =
-        std::make_shared<const ShadowTree>(encode_tree(build_shadow_tree(scene.mesh, view, {}, exec), view));
+    const auto trees = std::make_shared<BuiltTree>();
+    trees->plain.push_back(encode_tree(build_shadow_tree(scene.mesh, view, {}, exec), view));
     BuiltShadow built;
     built.build_s = seconds_since(start);
+    trees->with_grid = trees->plain;
+    set_top_grid(trees->with_grid[0], std::min(trees->plain[0].code.levels, top_grid_levels));
     built.view = view;
-    built.bytes = static_cast<std::int64_t>(tree->bytes);
-    built.light = pcf_light(light, std::span(&view, 1), scene.camera.eye);
-    built.lookups = [tree, pcf = built.light](Isa isa) -> std::vector<ShadowLookup> {
-        return {{"1 tap", [tree, pcf, isa](const SurfaceBlock& surface, float* visibility) {
-                     look_up_block(*tree, pcf, isa, surface, visibility);
-                 }}};
+    built.bytes = static_cast<std::int64_t>(trees->plain[0].bytes);
+    built.light = pcf_light(light, trees->plain, scene.camera.eye);
+    const std::shared_ptr<const BuiltTree> kept = trees;
+    built.lookups = [kept, light, eye = scene.camera.eye](Isa isa) {
+        return tree_lookups(kept, light, eye, isa);
     };
-    built.point_lookups = [tree](Isa isa) -> std::vector<PointLookup> {
-        return {{"points",
-                 [tree, isa](const MapPoints& points, std::uint16_t* lit) {
-                     OBSCURA_DISPATCH(isa, visibility, tree->code, points, 0, lit);
-                 }},
-                {"points, coherent", [tree, isa](const MapPoints& points, std::uint16_t* lit) {
-                     OBSCURA_DISPATCH(isa, coherent_visibility, tree->code, points, 0, lit);
-                 }}};
-    };
+    built.point_lookups = [kept](Isa isa) { return tree_point_lookups(kept, isa); };
     return built;
 }
 

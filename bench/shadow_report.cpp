@@ -76,6 +76,60 @@ void write_times(Out out, const std::vector<TimeRow>& rows) {
     }
 }
 
+/// The row of a scene's job with so many threads; null when there is none with times.
+const TimeRow* find_row(const std::vector<TimeRow>& rows, const TimeRow& like, const std::string& method,
+                        int size, const std::string& job) {
+    for (const TimeRow& row : rows) {
+        const bool fits = row.scene == like.scene && row.threads == like.threads && row.method == method;
+        if (fits && row.size == size && row.job == job && !row.runs_ms.empty()) return &row;
+    }
+    return nullptr;
+}
+
+/// Rates of trees beside Embree's packets and the largest dense map; naive kernels beside shared ones.
+void write_ratios(Out out, const std::vector<TimeRow>& rows) {
+    int dense = 0;
+    for (const TimeRow& row : rows)
+        dense = row.method == dense_name ? std::max(dense, row.size) : dense;
+    if (dense == 0) return;
+    fmt::format_to(
+        out,
+        "\n## Lookups in trees against peers\n\nRatios of rates: above 1 the tree is faster. Dense: {} "
+        "with the same kernel. Naive: every tap from the root. From surfaces to visibility, no top "
+        "grid.\n\n| scene | map | threads | job | M/s per thread | / Embree packets | / dense | / "
+        "naive |\n|---|---|--:|---|--:|--:|--:|--:|\n",
+        size_name(dense));
+    for (const TimeRow& row : rows) {
+        const bool kernel = row.job == "1 tap" || row.job == "3x3" || row.job == "5x5";
+        if (row.method != compressed_name || !kernel || row.runs_ms.empty()) continue;
+        const auto ratio = [&](const std::string& method, int size, const std::string& job) {
+            const TimeRow* peer = find_row(rows, row, method, size, job);
+            return peer != nullptr ? fmt::format("{:.2f}", row.rate() / peer->rate()) : std::string("-");
+        };
+        fmt::format_to(out, "| {} | {} | {} | {} | {:.1f} | {} | {} | {} |\n", row.scene, size_name(row.size),
+                       row.threads, row.job, row.rate(), ratio(embree_name, 0, "packets of 16 rays"),
+                       ratio(dense_name, dense, row.job),
+                       ratio(compressed_name, row.size, row.job + ", naive"));
+    }
+}
+
+void write_steps(Out out, const std::vector<AccuracyRow>& rows) {
+    bool titled = false;
+    for (const AccuracyRow& row : rows) {
+        if (row.naive_steps <= 0) continue;
+        if (!titled) {
+            fmt::format_to(
+                out,
+                "\n## Traversal steps\n\nNodes visited per pixel for a kernel of 5 x 5: every tap from "
+                "the root, and shared. (Between neighbouring pixels lookups share more still.)\n\n"
+                "| scene | map | naive | shared | ratio |\n|---|---|--:|--:|--:|\n");
+        }
+        titled = true;
+        fmt::format_to(out, "| {} | {} | {:.1f} | {:.1f} | {:.1f} |\n", row.scene, size_name(row.size),
+                       row.naive_steps, row.shared_steps, row.naive_steps / std::max(row.shared_steps, 1e-9));
+    }
+}
+
 void write_trees(Out out, const std::vector<SizeRow>& rows) {
     if (rows.empty()) return;
     fmt::format_to(
@@ -145,14 +199,15 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
     std::string text =
         "scene,triangles,method,size,bytes,build_s,covered,facing,wrong,wrong_percent,leaks,open,grazing,"
         "outline,"
-        "inside,worse,better\n";
+        "inside,worse,better,naive_steps,shared_steps\n";
     for (const AccuracyRow& row : rows) {
         const WrongPixels& w = row.wrong;
-        fmt::format_to(Out(text), "{},{},{},{},{},{:.3f},{},{},{},{:.6f},{},{},{},{},{},{},{}\n", row.scene,
-                       row.triangles, row.method, row.size, row.bytes, row.build_s, w.covered, w.facing,
-                       w.wrong, 100 * w.fraction(), w.leaks, w.by_kind[0], w.by_kind[1], w.by_kind[2],
-                       w.by_kind[3], row.has_dense ? fmt::format("{}", row.worse) : "",
-                       row.has_dense ? fmt::format("{}", row.better) : "");
+        fmt::format_to(Out(text),
+                       "{},{},{},{},{},{:.3f},{},{},{},{:.6f},{},{},{},{},{},{},{},{:.2f},{:.2f}\n",
+                       row.scene, row.triangles, row.method, row.size, row.bytes, row.build_s, w.covered,
+                       w.facing, w.wrong, 100 * w.fraction(), w.leaks, w.by_kind[0], w.by_kind[1],
+                       w.by_kind[2], w.by_kind[3], row.has_dense ? fmt::format("{}", row.worse) : "",
+                       row.has_dense ? fmt::format("{}", row.better) : "", row.naive_steps, row.shared_steps);
     }
     return text;
 }
@@ -214,7 +269,9 @@ std::string shadow_markdown(const ShadowResults& results, const BenchOptions& op
                    options.runs);
     write_machine(out);
     write_accuracy(out, results.accuracy);
+    write_ratios(out, results.times);
     write_times(out, results.times);
+    write_steps(out, results.accuracy);
     write_trees(out, results.sizes);
     write_directions(out, results.directions);
     return text;
