@@ -238,6 +238,26 @@ TEST(TreeFile, RefusesCraftedTrees) {
     EXPECT_EQ(crafted(tree, moved), "shadow tree 0: does not begin where it should");
 }
 
+TEST(TreeFile, RefusesBytesThatNoTreeOwns) {
+    std::vector<std::uint8_t> bytes = file_of({small_tree()});
+    EXPECT_TRUE(try_trees(bytes, true));
+    bytes.resize(bytes.size() + 64);
+    EXPECT_FALSE(try_trees(bytes, true));
+}
+
+TEST(TreeFile, ReadsFilesOfBefore) {
+    // Seeds of the fuzzer, and a promise: files of this version stay readable.
+    int files = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(OBSCURA_SOURCE_DIR "/tests/fuzz/corpus_tree")) {
+        SCOPED_TRACE(entry.path().filename());
+        EXPECT_FALSE(read_tree_file(entry.path()).trees.empty());
+        EXPECT_TRUE(try_trees(bytes_of(entry.path()), false));
+        ++files;
+    }
+    EXPECT_EQ(files, 9);
+}
+
 TEST(TreeFile, RefusesTreesThatShareChildren) {
     // Twenty levels in which all four children of a node are full and have the same children: walks meet
     // 4^20 nodes in a file of 200 words.
