@@ -17,6 +17,7 @@ struct ShadowBenchPlan {
     std::vector<int> timed_dense_sizes, timed_compressed_sizes;  ///< of the lookups
     std::vector<int> tree_sizes;                                 ///< of the table of trees
     std::vector<int> direction_sizes;                            ///< top-down against bottom-up
+    int peer_map = 16384;                                        ///< of the peers' dual depths
     std::vector<std::string> timed_scenes;                       ///< empty: all
     double longest_build_s = 240;                                ///< trees are built up to about this
     int picture_size = 4096;                                     ///< map whose wrong pixels are painted
@@ -38,6 +39,11 @@ int bench_shadows(const BenchOptions& options, const ShadowBenchParts& parts = {
 /// this process starts any thread.
 std::vector<TimeRow> measure_shadow_times(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
                                           const BenchOptions& options);
+
+/// Dual-depth maps of plan.peer_map texels a side, by the methods of the raster bench: what building a tree
+/// is measured against. One run each. Call before this process starts any thread.
+std::vector<TimeRow> measure_dual_depths(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
+                                         const BenchOptions& options);
 
 /// Trees of the sizes of plan.tree_sizes, in this process.
 std::vector<SizeRow> measure_trees(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,

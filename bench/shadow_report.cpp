@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "bench/machine.h"
+#include "bench/report.h"
 #include "core/file_output.h"
 
 namespace obscura {
@@ -110,6 +111,30 @@ void write_ratios(Out out, const std::vector<TimeRow>& rows) {
                        row.threads, row.job, row.rate(), ratio(embree_name, 0, "packets of 16 rays"),
                        ratio(dense_name, dense, row.job),
                        ratio(compressed_name, row.size, row.job + ", naive"));
+    }
+}
+
+/// Builds of trees against ten dual-depth maps of the best peer.
+void write_build_budget(Out out, const std::vector<TimeRow>& rows) {
+    fmt::format_to(
+        out,
+        "\n## Building trees against ten dual-depth maps\n\nThe peers' time for first and second "
+        "depth (one run, see the raster bench), times ten, over the tree's: above 1 the tree is "
+        "faster.\n\n| scene | threads | best peer | its map | ms | tree | built in ms | ten maps / tree "
+        "|\n|---|--:|---|--:|--:|--:|--:|--:|\n");
+    for (const TimeRow& row : rows) {
+        if (row.method != compressed_name || row.job != "build" || row.runs_ms.empty()) continue;
+        const TimeRow* best = nullptr;
+        for (const TimeRow& peer : rows) {
+            const bool fits = peer.scene == row.scene && peer.threads == row.threads &&
+                              peer.job.rfind("dual depth", 0) == 0 && peer.method != our_name;
+            if (!fits || peer.runs_ms.empty()) continue;
+            if (best == nullptr || peer.runs_ms[0] < best->runs_ms[0]) best = &peer;
+        }
+        if (best == nullptr) continue;
+        fmt::format_to(out, "| {} | {} | {} | {} | {:.0f} | {} | {:.0f} | **{:.2f}** |\n", row.scene,
+                       row.threads, best->method, size_name(best->size), best->runs_ms[0],
+                       size_name(row.size), median(row.runs_ms), 10 * best->runs_ms[0] / median(row.runs_ms));
     }
 }
 
@@ -270,6 +295,7 @@ std::string shadow_markdown(const ShadowResults& results, const BenchOptions& op
     write_machine(out);
     write_accuracy(out, results.accuracy);
     write_ratios(out, results.times);
+    if (!results.times.empty()) write_build_budget(out, results.times);
     write_times(out, results.times);
     write_steps(out, results.accuracy);
     write_trees(out, results.sizes);

@@ -187,9 +187,11 @@ TEST(ShadowBench, QuickRunWritesTablesAndCharts) {
     while (std::getline(csv, line)) {
         // The names of jobs may hold commas, in quotes.
         EXPECT_GE(std::count(line.begin(), line.end(), ','), columns) << line;
-        ++rows[line.substr(0, line.find(',', line.find(',', line.find(',') + 1) + 1))];
+        const std::size_t begin = line.find(',', line.find(',') + 1) + 1;
+        ++rows[line.substr(begin, line.find(',', begin) - begin)];
     }
-    EXPECT_EQ(rows.size(), 3u);  // dense, compressed, Embree
+    for (const char* method : {"dense", "compressed", "Embree"})
+        EXPECT_GT(rows[method], 0) << method;
     std::filesystem::remove_all(out);
 }
 
