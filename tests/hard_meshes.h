@@ -13,7 +13,7 @@
 
 namespace obscura::hard {
 
-/// Draws meshes and views; the same for the same seed.
+/// Draws meshes and views; the same for the same seed and compiler.
 class Source {
   public:
     explicit Source(std::uint32_t seed) : rng_(seed) {}
@@ -40,6 +40,7 @@ class Source {
 
   private:
     void add_part(Mesh& all);
+    void add_calm_part(Mesh& all);
     Mesh soup(int triangles, bool thin);
     Mesh fan();
     Mesh prism_with_t_junctions();
@@ -116,6 +117,17 @@ inline Mesh Source::near_copy(const Mesh& part) {
     return chance(20) ? part : solids::moved(part, map);
 }
 
+/// Drops what only pictures need, and takes the topology.
+inline void append_analysed(Mesh& all, Mesh part, bool casts) {
+    part.normals.clear();
+    part.uvs.clear();
+    part.material.clear();
+    part.objects = {{"part", casts}};
+    part.object.assign(part.triangles.size(), 0);
+    analyse_topology(part);
+    append_mesh(all, part);
+}
+
 inline void Source::add_part(Mesh& all) {
     Mesh part;
     switch (pick(11)) {
@@ -153,11 +165,6 @@ inline void Source::add_part(Mesh& all) {
             part = torus(uniform(0.5, 2), uniform(0.01, 0.4), 3 + pick(30), 3 + pick(9));
             break;
     }
-    part.normals.clear();
-    part.uvs.clear();
-    part.material.clear();
-    part.object.clear();
-    part.objects.clear();
     if (chance(50)) {
         Affine map =
             chance(60) ? solids::rotation({uniform(-1, 1), uniform(-1, 1), 1}, uniform(-1, 1)) : Affine{};
@@ -168,19 +175,48 @@ inline void Source::add_part(Mesh& all) {
     if (chance(15)) part = solids::flipped(part);
     if (chance(8) && part.triangles.size() > 3) part.triangles.resize(part.triangles.size() - 1);
     const bool casts = !chance(10);
-    const auto append = [&](Mesh m) {
-        m.objects = {{"part", casts}};
-        m.object.assign(m.triangles.size(), 0);
-        analyse_topology(m);
-        append_mesh(all, m);
-    };
-    append(part);
-    if (chance(20)) append(near_copy(part));
-    if (chance(10)) append(solids::flipped(near_copy(part)));
+    append_analysed(all, part, casts);
+    if (chance(20)) append_analysed(all, near_copy(part), casts);
+    if (chance(10)) append_analysed(all, solids::flipped(near_copy(part)), casts);
+}
+
+/// Closed solids with room between and around them, of many facets or of few: squares that can be decided.
+/// Among them solids that lie upon each other with whole faces, exactly or but for a hair.
+inline void Source::add_calm_part(Mesh& all) {
+    Affine map =
+        chance(70) ? solids::rotation({uniform(-1, 1), uniform(-1, 1), 1}, uniform(-1, 1)) : Affine{};
+    for (int i = 0; i < 3; ++i)
+        map.m[i][3] = coordinate();
+    const int kind = pick(5), segments = 6 + pick(90), rings = 4 + pick(40);
+    if (kind == 0) append_analysed(all, solids::moved(sphere(uniform(0.5, 4), segments, rings), map), true);
+    if (kind == 1) append_analysed(all, solids::moved(torus(3, uniform(0.3, 2), segments, rings), map), true);
+    if (kind == 2)
+        append_analysed(all, solids::moved(cylinder(uniform(0.5, 3), uniform(0.001, 5), segments), map),
+                        true);
+    if (kind == 3)
+        append_analysed(all, solids::moved(box({uniform(0.5, 6), uniform(1e-4, 3), uniform(0.5, 6)}), map),
+                        true);
+    if (kind != 4) return;
+    const Vec3d size{uniform(2, 6), uniform(0.1, 2), uniform(2, 6)};
+    const int count = 2 + pick(4);
+    for (int i = 0; i < count; ++i) {
+        const double gap = chance(50) ? 0.0 : uniform(-1, 1) * (chance(50) ? 1e-6 : 1e-4);
+        Mesh slab = box({0, i * size.y + gap, 0}, {size.x, (i + 1) * size.y, size.z});
+        if (chance(30))
+            slab = solids::moved(slab, solids::rotation({1, 0, uniform(-1, 1)}, uniform(-1, 1) * 1e-6));
+        append_analysed(all, solids::moved(slab, map), true);
+    }
 }
 
 inline Mesh Source::mesh() {
     Mesh all;
+    if (chance(50)) {
+        const int parts = 1 + pick(5);
+        for (int i = 0; i < parts; ++i)
+            add_calm_part(all);
+        if (chance(20)) add_part(all);
+        return all;
+    }
     const int parts = chance(10) ? 40 + pick(60) : 1 + pick(14);
     for (int i = 0; i < parts; ++i)
         add_part(all);
