@@ -12,6 +12,8 @@
 
 #include "bench/shadow_scenes.h"
 #include "bench/visible_points.h"
+#include "filters/shadow_lookup.h"
+#include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
 #include "hierarchy/query.h"
 #include "hierarchy/shadow_tree.h"
@@ -96,6 +98,75 @@ void Coherent(benchmark::State& state) {
     count_lookups(state, l.x.size());
 }
 
+/// Samples that were looked up: those that face the light.
+std::size_t asking_samples(const PcfLight& light) {
+    std::size_t count = 0;
+    for (const SurfaceBlock& b : city_view().points.blocks) {
+        for (int at = 0; at < block_samples; ++at)
+            count += ref::pcf_place(b, light, at).asks() ? 1 : 0;
+    }
+    return count;
+}
+
+template <class Run>
+void filter_all(benchmark::State& state, const PcfLight& light, Run&& run) {
+    const std::size_t asking = asking_samples(light);
+    alignas(64) float visibility[block_samples];
+    for (auto _ : state) {
+        for (const SurfaceBlock& b : city_view().points.blocks) {
+            run(b, visibility);
+            benchmark::DoNotOptimize(visibility);
+        }
+    }
+    count_lookups(state, asking);
+}
+
+PcfLight tree_light(const benchmark::State& state) {
+    const Scene& scene = city_view().scene;
+    const auto resolution = static_cast<int>(state.range(0));
+    return pcf_light(shadow_light(scene, resolution, static_cast<int>(state.range(1))),
+                     std::span(&city_tree(resolution, static_cast<int>(state.range(2))), 1),
+                     scene.camera.eye);
+}
+
+void PcfShared(benchmark::State& state) {
+    const PcfLight light = tree_light(state);
+    filter_all(state, light, [&](const SurfaceBlock& b, float* v) {
+        OBSCURA_DISPATCH(best_isa(), tree_pcf_block, b, light, v);
+    });
+}
+
+void PcfNaive(benchmark::State& state) {
+    const PcfLight light = tree_light(state);
+    filter_all(state, light, [&](const SurfaceBlock& b, float* v) {
+        OBSCURA_DISPATCH(best_isa(), naive_tree_pcf_block, b, light, v);
+    });
+}
+
+void PcfHierarchical(benchmark::State& state) {
+    const Scene& scene = city_view().scene;
+    PcfLight light = tree_light(state);
+    filter_hierarchically(light, camera_rays(scene.camera, scene.render.width, scene.render.height));
+    filter_all(state, light, [&](const SurfaceBlock& b, float* v) {
+        OBSCURA_DISPATCH(best_isa(), tree_pcf_block, b, light, v);
+    });
+}
+
+void PcfDense(benchmark::State& state) {
+    const Scene& scene = city_view().scene;
+    const auto resolution = static_cast<int>(state.range(0));
+    const Light of = shadow_light(scene, resolution, static_cast<int>(state.range(1)));
+    static std::map<int, ShadowMap> made;
+    if (!made.contains(resolution)) {
+        RasterScratch scratch;
+        build_shadow_map(scene.mesh, of, bounds_of(scene.mesh), Exec{}, scratch, made[resolution]);
+    }
+    const PcfLight light = pcf_light(of, made[resolution], scene.camera.eye);
+    filter_all(state, light, [&](const SurfaceBlock& b, float* v) {
+        OBSCURA_DISPATCH(best_isa(), pcf_block, b, light, v);
+    });
+}
+
 }  // namespace
 
 void add_tree_benchmarks() {
@@ -107,6 +178,19 @@ void add_tree_benchmarks() {
             benchmark::RegisterBenchmark("Tree/coherent/city", Coherent)
                 ->Args({resolution, top_levels})
                 ->Unit(benchmark::kMillisecond);
+        }
+    }
+    const auto add = [](const char* name, void (*run)(benchmark::State&), std::vector<std::int64_t> args) {
+        benchmark::RegisterBenchmark(name, run)->Args(args)->Unit(benchmark::kMillisecond);
+    };
+    for (const int side : {1, 3, 5}) {
+        for (const int resolution : {4096, 16384})
+            add("TreePcf/dense/city", PcfDense, {resolution, side});
+        for (const int resolution : {16384, 65536, 262144}) {
+            add("TreePcf/naive/city", PcfNaive, {resolution, side, 0});
+            for (const int top_levels : {0, 8})
+                add("TreePcf/shared/city", PcfShared, {resolution, side, top_levels});
+            add("TreePcf/hierarchical/city", PcfHierarchical, {resolution, side, 0});
         }
     }
 }

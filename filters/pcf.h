@@ -53,16 +53,17 @@ constexpr float pcf_least_cosine = 1.0f / 64.0f;
 constexpr float pcf_nearest_offset = 0.25f;
 
 /// pcf: kernels of texels, whatever a pixel spans on the map. hierarchical (trees only): kernels of squares
-/// of 2^l texels, as large as the pixel's footprint there, blended between the two levels around it.
+/// of 2^l texels that together are as large as the pixel's footprint there, blended between two levels.
 ///
 /// The footprint is the longer of the two vectors by which the pixel's neighbours to the right and below are
-/// apart on the map, on the plane of the receiver: f texels, at least 1. With l = floor(log2 f), visibility
-/// is (1 - t) V(l) + t V(l + 1), t = f / 2^l - 1. V(l) is the kernel above on the map of squares, whose
-/// stored depths are those of a descent that stops at level l: depths that suit some texel of the square, not
-/// all. So the receiver's plane is taken where it is nearest to the light among the texel centres of a tap's
-/// square: at its middle, less (|dZ/dX| + |dZ/dY|) (2^l - 1) / 2. A lit plane whose square stores the depth
-/// of any one of its texels then finds itself lit, and at level 0 there is no bias. (The authors' demo
-/// subtracts 5e-5 (l^2 + 1) of the depth range instead.)
+/// apart on the map, on the plane of the receiver. The box of K - 1 squares is to span it (K = 1: the
+/// square), so squares want f texels a side, f = footprint / (K - 1), at least 1. With l = floor(log2 f),
+/// visibility is (1 - t) V(l) + t V(l + 1), t = f / 2^l - 1. V(l) is the kernel above on the map of squares,
+/// whose stored depths are those of a descent that stops at level l: depths that suit some texel of the
+/// square, not all. So the receiver's plane is taken where it is nearest to the light among the texel centres
+/// of a tap's square: at its middle, less (|dZ/dX| + |dZ/dY|) (2^l - 1) / 2. A lit plane whose square stores
+/// the depth of any one of its texels then finds itself lit, and at level 0 there is no bias. (The authors'
+/// demo subtracts 5e-5 (l^2 + 1) of the depth range instead.)
 enum class PcfFilter : std::int32_t { pcf, hierarchical };
 
 /// Largest kernel side on trees; dense maps have 1, 3 and 5.

@@ -12,7 +12,7 @@ struct Receivers16 {
     Mask before_near;
     F64 X, Y;
     F32 depth, slope_x, slope_y;
-    F32 footprint;  ///< hierarchical
+    F32 tap_texels;  ///< hierarchical
 };
 
 struct Moved16 {
@@ -127,8 +127,7 @@ OBSCURA_INLINE F32 footprint_of(const CameraRays& rays, const PcfView& view, con
     };
     const F64 right = squared_way(view, moved, r, step(rays.dir_x, rays.origin_x));
     const F64 down = squared_way(view, moved, r, step(rays.dir_y, rays.origin_y));
-    const F32 longer = sqrt(to_f32(max(right, down)));
-    return min(max(longer, splat(1.0f)), splat(static_cast<float>(view.size)));
+    return sqrt(to_f32(max(right, down)));
 }
 
 /// Visibility of samples at .. at + 15; lookup(view, receivers, active) answers for the active lanes of one
@@ -153,7 +152,9 @@ OBSCURA_INLINE F32 group_visibility(const SurfaceBlock& s, const PcfLight& light
         const PcfView& view = light.view[f];
         Receivers16 r = place(view, moved);
         if (light.filter == PcfFilter::hierarchical) {
-            r.footprint = footprint_of(light.camera, view, p, g, load(s.depth + at), moved, r);
+            const F32 footprint = footprint_of(light.camera, view, p, g, load(s.depth + at), moved, r);
+            const F32 squares = splat(static_cast<float>(light.side == 1 ? 1 : light.side - 1));
+            r.tap_texels = min(max(footprint / squares, splat(1.0f)), splat(static_cast<float>(view.size)));
         }
         const F32 seen = select(r.before_near, splat(1.0f), lookup(f, r, active));
         visibility = select(active, seen, visibility);

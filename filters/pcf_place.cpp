@@ -92,8 +92,7 @@ float footprint_of(const CameraRays& rays, const PcfView& view, Vec3f p, Vec3f g
     };
     const double right = squared_way(view, moved, r, step(rays.dir_x, rays.origin_x));
     const double down = squared_way(view, moved, r, step(rays.dir_y, rays.origin_y));
-    const float longer = std::sqrt(static_cast<float>(lane_max(right, down)));
-    return lane_min(lane_max(longer, 1.0f), static_cast<float>(view.size));
+    return std::sqrt(static_cast<float>(lane_max(right, down)));
 }
 
 }  // namespace
@@ -116,14 +115,16 @@ PcfPlace pcf_place(const SurfaceBlock& s, const PcfLight& light, int at) {
     const PcfView& view = light.view[r.view];
     place(view, moved, r);
     if (light.filter == PcfFilter::hierarchical) {
-        r.footprint = footprint_of(light.camera, view, p, g, s.depth[at], moved, r);
+        const float footprint = footprint_of(light.camera, view, p, g, s.depth[at], moved, r);
+        const auto squares = static_cast<float>(light.side == 1 ? 1 : light.side - 1);
+        r.tap_texels = lane_min(lane_max(footprint / squares, 1.0f), static_cast<float>(view.size));
     }
     return r;
 }
 
 Levels levels_of(const PcfPlace& r) {
-    // The exponent and the mantissa of the footprint.
-    const auto bits = std::bit_cast<std::uint32_t>(r.footprint);
+    // Exponent and mantissa.
+    const auto bits = std::bit_cast<std::uint32_t>(r.tap_texels);
     return {static_cast<int>(bits >> 23) - 127, static_cast<float>(bits & 0x7fffffu) * 0x1p-23f};
 }
 

@@ -18,7 +18,7 @@ struct PcfPlace {
     double X = 0, Y = 0;             ///< texels, not farther off the map than 8
     float depth = 0;                 ///< of the receiver
     float slope_x = 0, slope_y = 0;  ///< of its plane: depth per texel
-    float footprint = 1;             ///< hierarchical: texels that its pixel spans, in [1, size]
+    float tap_texels = 1;            ///< hierarchical: texels a side that its taps want to span, in [1, size]
     bool asks() const { return kind == before_near || kind == on_map; }
 };
 PcfPlace pcf_place(const SurfaceBlock& surface, const PcfLight& light, int at);
@@ -78,7 +78,7 @@ struct Kernel {
     }
 };
 
-/// The two levels around the footprint; blend 0: the finer alone.
+/// The two levels around tap_texels; blend 0: the finer alone.
 struct Levels {
     int fine = 0;
     float blend = 0;

@@ -62,7 +62,7 @@ PcfTrace trace_pcf(const SurfaceBlock& surface, const PcfLight& light, int at) {
     trace.X = r.X;
     trace.Y = r.Y;
     trace.depth = r.depth;
-    trace.footprint = r.footprint;
+    trace.tap_texels = r.tap_texels;
     if (r.kind == PcfPlace::before_near) {
         trace.visibility = 1.0f;
         return trace;

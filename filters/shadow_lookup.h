@@ -51,7 +51,7 @@ struct PcfTrace {
     int view = 0;
     double X = 0, Y = 0;       ///< texels
     float depth = 0;           ///< of the receiver
-    float footprint = 1;       ///< hierarchical: texels that the pixel spans
+    float tap_texels = 1;      ///< as PcfPlace has it
     std::vector<PcfTap> taps;  ///< side x side; hierarchical between two levels: those of the coarser follow
     float visibility = 0;
     PcfSteps steps;  ///< trees only
