@@ -119,9 +119,16 @@ OBSCURA_INLINE F32 stored_of_block(const TreeCode& tree, const std::uint8_t* bas
     const I32 apart = select(inside, (g.x ^ splat(x0)) | (g.y ^ splat(y0)), splat(std::int32_t{0}));
     const int parted = common_height(united_bits(apart));
     const int height = parted > level ? parted : level;
+    Descents16 d;
+    if (tree.top != nullptr && height > tree.levels - tree.top_levels) {
+        // Far apart: each from its own place in the grid.
+        const int at = enter<Units>(tree, g.x, g.y, g.inside, level, d);
+        descend_to<Units>(tree, base, at, level, g.x, g.y, d);
+        return values<Units>(base, d);
+    }
     const TopNode place = extend_path<Units>(tree, x0, y0, height, path);
     if (height == level || place.node == no_tree_node) return splat(unit_value<Units>(tree, place.value));
-    Descents16 d = descents_from(place, inside);
+    d = descents_from(place, inside);
     descend_to<Units>(tree, base, height, level, g.x, g.y, d);
     return values<Units>(base, d);
 }

@@ -81,12 +81,13 @@ OBSCURA_TREE_INLINE int common_height(std::uint32_t bits) {
     return bits == 0 ? 0 : 32 - __builtin_clz(bits);
 }
 
-/// The way from the root to a texel, kept so that the next texel's descent starts where the two ways part.
+/// The way from the root to a texel, kept so that the next texel's descent starts where the two ways part. It
+/// has no use for a top grid: neighbours seldom part so far up.
 struct TreePath {
     TopNode at[max_tree_levels + 1];  ///< by height, from `bottom` up
     std::int32_t x = 0, y = 0;
     std::int32_t bottom = 0;  ///< where the descent ended, or how far it was asked for
-    std::int32_t steps = 0;   ///< headers and grid entries read so far
+    std::int32_t steps = 0;   ///< headers read so far
 };
 
 template <class Units>
@@ -105,18 +106,6 @@ OBSCURA_TREE_INLINE TopNode extend_path(const TreeCode& tree, std::int32_t x, st
     path.x = x;
     path.y = y;
     if (path.bottom < parted) path.bottom = parted;
-    const int grid = tree.levels - tree.top_levels;
-    if (tree.top != nullptr && (path.bottom > grid || height > grid)) {
-        // Between the root and the grid's level nothing is known but what was just asked for.
-        path.bottom = tree.levels;
-        if (height <= grid) {
-            const auto row = static_cast<std::uint64_t>(y >> grid),
-                       column = static_cast<std::uint64_t>(x >> grid);
-            path.at[grid] = tree.top[(row << tree.top_levels) + column];
-            path.bottom = grid;
-            ++path.steps;
-        }
-    }
     if (path.bottom <= height) return path.at[height];
     TopNode place = path.at[path.bottom];
     while (path.bottom > height && place.node != no_tree_node) {
