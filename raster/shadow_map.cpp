@@ -54,28 +54,36 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
     });
 }
 
+bool is_parallel(const Light& light) {
+    return light.kind == LightKind::directional || light.kind == LightKind::sun;
+}
+
+/// Of points and spots: to their own range.
+std::vector<LightView> lamp_views(const Light& light, int resolution) {
+    // What a kernel reaches beyond its receiver's texel, and one more.
+    const int margin = light.shadow.filter_px / 2 + 1;
+    if (light.kind == LightKind::point) {
+        return cube_light_views(light.position, light.near_m, light.range_m, resolution, margin);
+    }
+    // Wider than the cone by the margin. Nothing is wider than 170 degrees; beyond, the cone's rim takes the
+    // map's border.
+    const double cone = num::tan(light.outer_cone_deg * (num::pi / 180.0));
+    return {tangent_light_view(light.position, light.direction,
+                               std::min(cone * margin_factor(resolution, margin), widest_tangent),
+                               light.near_m, light.range_m, resolution)};
+}
+
 }  // namespace
 
 std::vector<LightView> shadow_views(const Light& light, const Bounds& bounds) {
     const int resolution = light.shadow.resolution;
-    // What a kernel reaches beyond its receiver's texel, and one more.
-    const int margin = light.shadow.filter_px / 2 + 1;
-    switch (light.kind) {
-        case LightKind::directional:
-        case LightKind::sun:
-            return {orthographic_light_view(bounds, light.direction, resolution)};
-        case LightKind::spot:
-            // Wider than the cone by the margin. Nothing is wider than 170 degrees; beyond, the cone's rim
-            // takes the map's border.
-            return {tangent_light_view(light.position, light.direction,
-                                       std::min(num::tan(light.outer_cone_deg * (num::pi / 180.0)) *
-                                                    margin_factor(resolution, margin),
-                                                widest_tangent),
-                                       light.near_m, light.range_m, resolution)};
-        case LightKind::point:
-            return cube_light_views(light.position, light.near_m, light.range_m, resolution, margin);
-    }
-    return {};
+    if (!is_parallel(light)) return lamp_views(light, resolution);
+    return {orthographic_light_view(bounds, light.direction, resolution)};
+}
+
+std::vector<LightView> fitted_shadow_views(const Light& light, const Bounds& casters, int resolution) {
+    if (!is_parallel(light)) return lamp_views(light, resolution);
+    return {fitted_light_view(casters, light.direction, resolution)};
 }
 
 std::int64_t dense_map_bytes(const Light& light) {
@@ -98,15 +106,19 @@ bool build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds
 }
 
 double texel_size_m(const LightView& view) {
-    const auto& x = view.to_map.m[0];
-    Vec3d right{x[0], x[1], x[2]};
-    if (view.perspective) {
-        // The X row is right * texels per tangent + forward * width / 2.
-        const auto& w = view.to_map.m[3];
-        const Vec3d forward{w[0], w[1], w[2]};
-        right = right - forward * (dot(right, forward) / dot(forward, forward));
+    double longest = 0;
+    for (int r = 0; r < 2; ++r) {
+        const auto& row = view.to_map.m[r];
+        Vec3d across{row[0], row[1], row[2]};
+        if (view.perspective) {
+            // The X row is right * texels per tangent + forward * width / 2.
+            const auto& w = view.to_map.m[3];
+            const Vec3d forward{w[0], w[1], w[2]};
+            across = across - forward * (dot(across, forward) / dot(forward, forward));
+        }
+        longest = std::max(longest, 1.0 / length(across));
     }
-    return 1.0 / length(right);
+    return longest;
 }
 
 }  // namespace obscura

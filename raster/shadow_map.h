@@ -42,6 +42,10 @@ struct ShadowMap {
 /// receivers), for the others to the light's own range.
 std::vector<LightView> shadow_views(const Light& light, const Bounds& bounds);
 
+/// Views of the same light for a map that is not dense, `resolution` texels a side: of directional lights and
+/// the sun fitted to `casters`, as caster_box() finds it.
+std::vector<LightView> fitted_shadow_views(const Light& light, const Bounds& casters, int resolution);
+
 /// Memory of the map that build_shadow_map() would make, bytes.
 std::int64_t dense_map_bytes(const Light& light);
 
@@ -51,7 +55,8 @@ std::int64_t dense_map_bytes(const Light& light);
 bool build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
                       RasterScratch& scratch, ShadowMap& map, const std::atomic<bool>* cancel = nullptr);
 
-/// Metres that a texel of the view spans: everywhere (orthographic), or at distance 1 (perspective).
+/// Metres that a texel of the view spans, the longer way: everywhere (orthographic), or at distance 1
+/// (perspective).
 double texel_size_m(const LightView& view);
 
 }  // namespace obscura

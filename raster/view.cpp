@@ -94,6 +94,50 @@ LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int res
     return view;
 }
 
+Bounds caster_box(const Mesh& mesh, Vec3d direction) {
+    const Basis basis = look_basis(direction, {0, 1, 0});
+    std::vector<char> casts(mesh.positions.size(), 0);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (!mesh.objects.empty() && !mesh.objects[mesh.object[t]].casts_shadow) continue;
+        for (const std::uint32_t v : mesh.triangles[t].v)
+            casts[v] = 1;
+    }
+    Bounds box;
+    for (std::size_t v = 0; v < casts.size(); ++v) {
+        if (casts[v] == 0) continue;
+        const Vec3d p = to_double(mesh.positions[v]);
+        const Vec3d q{dot(basis.right, p), dot(basis.up, p), dot(basis.forward, p)};
+        box.low = {std::min(box.low.x, q.x), std::min(box.low.y, q.y), std::min(box.low.z, q.z)};
+        box.high = {std::max(box.high.x, q.x), std::max(box.high.y, q.y), std::max(box.high.z, q.z)};
+    }
+    return box;
+}
+
+LightView fitted_light_view(const Bounds& box, Vec3d direction, int resolution) {
+    const Basis basis = look_basis(direction, {0, 1, 0});
+    const Bounds b = box.empty() ? Bounds{{0, 0, 0}, {0, 0, 0}} : box;
+    const Vec3d centre = (b.low + b.high) * 0.5, half = (b.high - b.low) * 0.5;
+    // A side that is next to nothing, as that of a sheet seen edge on, gains nothing from finer texels.
+    constexpr double longest_texel = 16.0;
+    const double least_reach = std::max(std::max(half.x, half.y) / longest_texel, 1e-6);
+    const double reach_x = std::max(half.x, least_reach), reach_y = std::max(half.y, least_reach);
+    const double depth_reach = std::max(half.z * 1.0005, 1e-6);
+
+    LightView view;
+    view.width = view.height = resolution;
+    const Frame frame{basis, basis.right * centre.x + basis.up * centre.y + basis.forward * centre.z};
+    Vec4d x = frame.row(basis.right, (resolution - 2) / (2.0 * reach_x));
+    Vec4d y = frame.row(basis.up, -(resolution - 2) / (2.0 * reach_y));
+    Vec4d z = frame.row(basis.forward, 0.5 / depth_reach);
+    x.w += 0.5 * resolution;
+    y.w += 0.5 * resolution;
+    z.w += 0.5;
+    set_row(view.to_map, 0, x);
+    set_row(view.to_map, 1, y);
+    set_row(view.to_map, 2, z);
+    return view;
+}
+
 double margin_factor(int resolution, int margin_texels) {
     CHECK(resolution > 2 * margin_texels);
     return static_cast<double>(resolution) / (resolution - 2 * margin_texels);

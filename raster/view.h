@@ -20,6 +20,15 @@ Bounds bounds_of(const Mesh& mesh);
 /// resolution x resolution square texels. Depth 0 and 1 lie a little outside the bounds.
 LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int resolution);
 
+/// Extent of what casts shadows along the axes of parallel light, metres: right and up of
+/// look_basis(direction, +Y), and forward.
+Bounds caster_box(const Mesh& mesh, Vec3d direction);
+
+/// Orthographic view along `direction` that just holds `box`, given along the light's axes: resolution x
+/// resolution texels, which need not be square: as much longer one way as the box is, up to 16 times. Around
+/// the box lies one texel of margin. Depth 0 and 1 lie a little outside.
+LightView fitted_light_view(const Bounds& box, Vec3d direction, int resolution);
+
 /// Perspective view from `position` along `direction` with full angle `angle_deg` in (0, 180) both ways.
 LightView perspective_light_view(Vec3d position, Vec3d direction, double angle_deg, double near_m,
                                  double far_m, int resolution);
