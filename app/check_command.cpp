@@ -3,22 +3,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
+#include <optional>
+#include <vector>
 
+#include "app/frame_shadows.h"
 #include "app/keyframes.h"
+#include "app/render_frame.h"
 #include "app/scene_build.h"
+#include "app/shadow_text.h"
+#include "raster/shadow_map.h"
 #include "raster/view.h"
 
 namespace obscura {
 namespace {
-
-std::string size_text(std::int64_t bytes) {
-    const auto b = static_cast<double>(bytes);
-    if (bytes < 10 << 10) return fmt::format("{} B", bytes);
-    if (bytes < 10 << 20) return fmt::format("{:.1f} KiB", b / (1 << 10));
-    return fmt::format("{:.1f} MiB", b / (1 << 20));
-}
 
 std::string point_text(Vec3d p) {
     return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
@@ -62,23 +60,58 @@ const char* kind_text(LightKind kind) {
 }
 
 /// ", texels of 34 mm": how fine the parallel light's map is; it covers all of the scene.
-std::string texel_text(const Light& light, const Bounds& bounds) {
+std::string texel_text(const Light& light, const Scene& scene) {
     const bool parallel = light.kind == LightKind::directional || light.kind == LightKind::sun;
-    if (!parallel || bounds.empty()) return "";
-    const LightView view = orthographic_light_view(bounds, light.direction, light.shadow.resolution);
-    const auto& x = view.to_map.m[0];
-    return fmt::format(", texels of {:.3g} mm", 1000 / std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+    if (!parallel || scene.mesh.triangles.empty()) return "";
+    const int n = light.shadow.resolution;
+    const LightView view =
+        light.shadow.method == ShadowMethod::map
+            ? orthographic_light_view(bounds_of(scene.mesh), light.direction, n)
+            : fitted_light_view(caster_box(scene.mesh, light.direction), light.direction, n);
+    return fmt::format(", texels of {:.3g} mm", 1000 * texel_size_m(view));
 }
 
-std::string light_text(const Light& light, const Bounds& bounds) {
+std::string tree_text(const Light& light) {
+    const ShadowSettings& s = light.shadow;
+    std::string out = s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
+    if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
+    return out + (s.filter == ShadowFilter::pcf ? "" : ", filtered hierarchically");
+}
+
+/// `light`: its resolution as found.
+std::string light_text(const Light& light, const std::optional<FoundResolution>& found, const Scene& scene) {
     std::string out = fmt::format("light     {}: {}", light.id, kind_text(light.kind));
     if (light.below_horizon) out += ", below the horizon in the first frame";
     const int maps = shadow_map_count(light);
     if (maps == 0) return out + ", no shadows\n";
+    const bool dense = light.shadow.method == ShadowMethod::map;
+    out += fmt::format(", {} {} shadow map{}", maps, dense ? "dense" : "compressed", maps == 1 ? "" : "s");
+    if (light.shadow.resolution == auto_resolution) return out + ", resolution auto\n";
     const int n = light.shadow.resolution;
-    return out + fmt::format(", {} shadow map{} of {} x {}{}, filter {} x {}, {}\n", maps,
-                             maps == 1 ? "" : "s", n, n, texel_text(light, bounds), light.shadow.filter_px,
-                             light.shadow.filter_px, size_text(shadow_map_bytes(light)));
+    out += fmt::format(" of {} x {}{}, filter {} x {}{}", n, n, texel_text(light, scene),
+                       light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
+    out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(shadow_map_bytes(light)));
+    if (found) out += fmt::format("          {}\n", resolution_text(*found));
+    return out;
+}
+
+/// Puts what "auto" means for the first frame in the lights' places.
+std::vector<std::optional<FoundResolution>> settle_resolutions(Scene& scene, const Exec& exec) {
+    std::vector<std::optional<FoundResolution>> found(scene.lights.size());
+    const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+        return casts_shadows(light) && light.shadow.resolution == auto_resolution;
+    });
+    if (!any || scene.mesh.triangles.empty()) return found;
+    check_memory(estimate_memory(scene), scene.limits, "the depth image");
+    FrameCache cache;
+    FrameStats stats;
+    prepare_scene(scene, exec, cache, stats);
+    const TileScene tiles = prepare_tiles(scene, exec, cache);
+    found = auto_resolutions(scene, tiles, exec);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i]) scene.lights[i].shadow.resolution = found[i]->resolution;
+    }
+    return found;
 }
 
 std::string mesh_text(const Scene& scene) {
@@ -109,12 +142,12 @@ std::string memory_text(const Scene& scene) {
 
 std::string check_report(const CheckOptions& options) {
     const SceneDocument document = read_scene(options.scene, options.overrides);
-    const Scene scene = build_scene(document, FileAccess{document.folder, options.allowed_paths});
+    Scene scene = build_scene(document, FileAccess{document.folder, options.allowed_paths});
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
-    const Bounds bounds = bounds_of(scene.mesh);
-    for (const Light& light : scene.lights)
-        out += light_text(light, bounds);
+    const auto found = settle_resolutions(scene, Exec{});
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        out += light_text(scene.lights[i], found[i], scene);
     return out + mesh_text(scene) + memory_text(scene) + "ok\n";
 }
 

@@ -4,7 +4,10 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
+#include "app/light_shadow_stats.h"
 #include "core/buffer.h"
 #include "core/image.h"
 #include "core/vec.h"
@@ -23,19 +26,23 @@ struct FrameOptions {
 
 /// Wall-clock seconds per stage, and exact counts.
 struct FrameStats {
-    double surface_s = 0;  ///< table of surface triangles; 0 when kept
-    double shadow_s = 0;   ///< shadow maps; 0 when kept
-    double setup_s = 0;    ///< triangle setup and bins of the camera
-    double tiles_s = 0;    ///< visibility, surface, shadow lookups, shading, resolve
+    double surface_s = 0;     ///< table of surface triangles; 0 when kept
+    double shadow_s = 0;      ///< shadow maps, the next two included; near 0 when kept
+    double resolution_s = 0;  ///< of these, finding resolutions
+    double needed_s = 0;      ///< and finding what the picture looks up (scope "frame")
+    double setup_s = 0;       ///< triangle setup and bins of the camera
+    double tiles_s = 0;       ///< visibility, surface, shadow lookups, shading, resolve
     double total_s = 0;
-    std::int64_t triangles = 0;        ///< in the scene
-    std::int64_t records = 0;          ///< triangles that reach a sample of the picture, after clipping
-    std::int64_t bin_items = 0;        ///< triangle-tile pairs
-    std::int64_t samples = 0;          ///< taken
-    std::int64_t covered_samples = 0;  ///< of these, on a surface
-    std::int64_t shadow_maps = 0;      ///< views rendered for this frame, not kept ones
-    std::int64_t shadow_bytes = 0;     ///< all maps
-    std::int64_t bytes = 0;            ///< estimate_memory(), checked before the work
+    std::int64_t triangles = 0;            ///< in the scene
+    std::int64_t records = 0;              ///< triangles that reach a sample of the picture, after clipping
+    std::int64_t bin_items = 0;            ///< triangle-tile pairs
+    std::int64_t samples = 0;              ///< taken
+    std::int64_t covered_samples = 0;      ///< of these, on a surface
+    std::int64_t shadow_maps = 0;          ///< views rendered for this frame, not kept ones
+    std::int64_t shadow_bytes = 0;         ///< all maps
+    std::int64_t bytes = 0;                ///< estimate_memory(), checked before the work
+    std::vector<LightShadowStats> lights;  ///< of the lights with shadows, in scene order
+    std::vector<std::string> notices;      ///< what happened that one would want to know: caches made again
 };
 
 constexpr std::uint32_t no_object = 0xffffffffu;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "app/stopwatch.h"
 #include "raster/depth_tile.h"
 #include "raster/resolve.h"
 #include "raster/texture.h"
@@ -120,8 +121,13 @@ void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work) {
                      work.shade);
     int with_shadow = 0;
     if (shadow) std::fill_n(work.shadow_sum, block_samples, 0.0f);
-    for (const TileLight& light : scene.lights) {
-        if (light.pcf) OBSCURA_DISPATCH(isa, pcf_block, work.surface, *light.pcf, work.visibility);
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        const TileLight& light = scene.lights[l];
+        if (light.pcf) {
+            const Stopwatch watch;
+            OBSCURA_DISPATCH(isa, pcf_block, work.surface, *light.pcf, work.visibility);
+            if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
+        }
         OBSCURA_DISPATCH(isa, shade_light, work.surface, light.shade, light.pcf ? work.visibility : nullptr,
                          work.shade);
         if (!shadow || !light.pcf) continue;

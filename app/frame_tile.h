@@ -2,6 +2,7 @@
 // One 64 x 64 tile of a frame, stage by stage: visibility, surface, textures, shadow lookups, shading,
 // resolve. Between the stages lie plain buffers, so that a test, a lesson or a trace can stop there.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,7 +41,7 @@ struct TileScene {
     bool textured = false;  ///< some material has a texture
 };
 
-/// Working memory of one tile: about 140 KiB, not initialised.
+/// Working memory of one tile: about 140 KiB, not initialised but for the last.
 struct TileWork {
     alignas(64) float depth[frame_tile_side * frame_tile_side];
     alignas(64) std::uint32_t triangle[frame_tile_side * frame_tile_side];
@@ -51,6 +52,7 @@ struct TileWork {
     alignas(64) float r[frame_tile_side * frame_tile_side];
     alignas(64) float g[frame_tile_side * frame_tile_side];
     alignas(64) float b[frame_tile_side * frame_tile_side];
+    std::span<double> lookup_s;  ///< seconds in shadow lookups are added here, per light; empty: not measured
 };
 
 /// Stage 1: nearest triangle of one sample of every pixel of tile (column, row).
@@ -59,6 +61,28 @@ TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosi
 
 /// Stages 2 and 3: surfaces and texels of the block of rows from first_row on.
 void block_surface(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work);
+
+/// Stages 1 to 3 of tile `index` for one sample of every pixel; calls visit(x, y, at) for each pixel of the
+/// picture whose sample is on a surface: sample `at` of work.surface.
+template <class Visit>
+void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
+               Visit&& visit) {
+    const int columns = scene.bins->columns;
+    const auto i = static_cast<int>(index);
+    const Region inside = scene.bins->inside(index);
+    const TileRect tile = tile_visibility(scene, i % columns, i / columns, sample, isa, work);
+    for (int first_row = 0; first_row < inside.height; first_row += block_rows) {
+        block_surface(scene, tile, first_row, isa, work);
+        for (int y = first_row; y < std::min(first_row + block_rows, inside.height); ++y) {
+            for (int x = 0; x < inside.width; ++x) {
+                const int at = (y - first_row) * frame_tile_side + x;
+                if ((work.surface.covered[at / 16] >> (at & 15) & 1u) != 0) {
+                    visit(tile.x0 + x, tile.y0 + y, at);
+                }
+            }
+        }
+    }
+}
 
 /// Stages 4 and 5: shadow lookups and shading. `shadow`: also sum visibilities into work.shadow_sum.
 void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
+#include "app/frame_shadows.h"
 #include "core/num.h"
 #include "filters/shadow_lookup.h"
 #include "filters/tonemap.h"
@@ -115,18 +117,25 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
             look.visibility > 0 ? "before the map's near plane" : "the face looks away", look.visibility);
         return;
     }
-    const LightView& view = cache_.shadows[shadow].map.views[static_cast<std::size_t>(look.view)];
+    const LightView& view = cache_.shadows[shadow].view(look.view);
     say("      map {} of {}, {} x {}: texel ({:.4f}, {:.4f}), receiver depth {:.9g}", look.view,
         light.pcf->views, view.width, view.height, look.X, look.Y, look.depth);
-    for (const ref::PcfTap& tap : look.taps) {
-        say("        tap ({}, {}) receiver {:.9g} stored {:.9g} {}{}", tap.x, tap.y, tap.receiver, tap.stored,
-            tap.lit ? "lit" : "dark", tap.inside ? "" : ", outside the map");
+    if (light.pcf->filter == PcfFilter::hierarchical) {
+        say("        taps of {:.6g} texels make a kernel as large as the pixel", look.tap_texels);
     }
-    const ref::PcfTap& own = look.taps[look.taps.size() / 2];
-    if (own.inside) {
-        const Layers layers = layers_of(scene_.mesh, view, {own.x, own.y, 1, 1}, exec_);
+    for (const ref::PcfTap& tap : look.taps) {
+        const std::string level = tap.level == 0 ? "" : fmt::format("of level {} ", tap.level);
+        say("        tap {}({}, {}) receiver {:.9g} stored {:.9g} {}{}", level, tap.x, tap.y, tap.receiver,
+            tap.stored, tap.lit ? "lit" : "dark", tap.inside ? "" : ", outside the map");
+    }
+    if (look.steps.naive > 0) {
+        say("        nodes visited: {}, each tap from the root {}", look.steps.shared, look.steps.naive);
+    }
+    const auto x = static_cast<int>(std::floor(look.X)), y = static_cast<int>(std::floor(look.Y));
+    if (x >= 0 && y >= 0 && x < view.width && y < view.height) {
+        const Layers layers = layers_of(scene_.mesh, view, {x, y, 1, 1}, exec_);
         std::vector<LayerCrossing> crossings;
-        for (const LayerCrossing& c : layers.at(own.x, own.y)) {
+        for (const LayerCrossing& c : layers.at(x, y)) {
             const Mesh& mesh = scene_.mesh;
             if (mesh.objects.empty() || mesh.objects[mesh.object[c.triangle]].casts_shadow)
                 crossings.push_back(c);
@@ -186,7 +195,8 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y, const Exec& exec, Frame
     CHECK(x >= 0 && y >= 0 && x < render.width && y < render.height);
     FrameStats stats;
     prepare_scene(scene, exec, cache, stats);
-    const TileScene tiles = prepare_tiles(scene, exec, cache);
+    TileScene tiles = prepare_tiles(scene, exec, cache);
+    prepare_shadows(scene, 0, exec, cache, tiles, stats);
     PixelStory story(scene, tiles, cache, exec);
     story.say("pixel ({}, {}) of {} x {}, {} sample{}", x, y, render.width, render.height, render.samples,
               render.samples == 1 ? "" : "s");

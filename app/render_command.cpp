@@ -16,6 +16,7 @@
 #include "app/render_frame.h"
 #include "app/render_stats.h"
 #include "app/scene_build.h"
+#include "app/shadow_text.h"
 #include "app/signals.h"
 #include "core/edges.h"
 #include "core/error.h"
@@ -155,10 +156,17 @@ void say_frame(const FrameReport& report, int verbosity) {
     const FrameStats& s = report.stats;
     fmt::print(
         stderr,
-        "  surfaces {:.3f} s, shadow maps {:.3f} s ({}), setup {:.3f} s, tiles {:.3f} s, files {:.3f} s\n",
-        s.surface_s, s.shadow_s, s.shadow_maps, s.setup_s, s.tiles_s, report.write_s);
-    fmt::print(stderr, "  {} triangles, {} in view, {} samples, {} of them on a surface\n", s.triangles,
-               s.records, s.samples, s.covered_samples);
+        "  surfaces {:.3f} s, setup {:.3f} s, shadow maps {:.3f} s ({}), tiles {:.3f} s, files {:.3f} s\n",
+        s.surface_s, s.setup_s, s.shadow_s, s.shadow_maps, s.tiles_s, report.write_s);
+    fmt::print(stderr,
+               "  {} triangles, {} in view, {} samples, {} of them on a surface; {} MiB at most so far\n",
+               s.triangles, s.records, s.samples, s.covered_samples, peak_resident_bytes() >> 20);
+    if (s.resolution_s + s.needed_s > 0.0005) {
+        fmt::print(stderr, "  of shadow maps: resolutions {:.3f} s, finding what is looked up {:.3f} s\n",
+                   s.resolution_s, s.needed_s);
+    }
+    for (const LightShadowStats& light : s.lights)
+        fmt::print(stderr, "{}", shadow_text(light));
 }
 
 /// Tells what is right to ask for but often a mistake: nothing to see, a sun that has set.
@@ -182,6 +190,7 @@ void render_frames(RenderPlan& plan, Scene& scene, const RenderOptions& options,
     plan.frame_options.cancel = &stop_requested();
     plan.frame_options.progress = [&](double fraction) { progress.update(fraction); };
     FrameCache cache;
+    cache.access = FileAccess{plan.document.folder, options.allowed_paths};
     Frame frame;
     const auto count = static_cast<double>(plan.frames.size());
     for (std::size_t i = 0; i < plan.frames.size(); ++i) {
@@ -197,6 +206,11 @@ void render_frames(RenderPlan& plan, Scene& scene, const RenderOptions& options,
                  [&] { render_frame(scene, plan.frame_options, options.exec, cache, frame); });
         stop_if_requested();
         frame_report.stats = frame.stats;
+        if (!options.quiet && !frame.stats.notices.empty()) {
+            progress.clear();
+            for (const std::string& notice : frame.stats.notices)
+                fmt::print(stderr, "obscura: note: {}\n", notice);
+        }
         in_stage(fmt::format("writing frame {}", number),
                  [&] { write_frame(plan, frame, options.exec, frame_report); });
         // Of many frames only those with something to state are told one by one.
@@ -214,11 +228,14 @@ void render_frames(RenderPlan& plan, Scene& scene, const RenderOptions& options,
 }
 
 /// Prints what made one pixel of the first frame.
-void explain_pixel(const RenderPlan& plan, Scene& scene, const Exec& exec) {
+void explain_pixel(const RenderPlan& plan, Scene& scene, const FileAccess& access, const Exec& exec) {
     const int frame = plan.frames.front();
     set_frame(scene, plan.document, frame);
-    const PixelTrace trace = in_stage(fmt::format("tracing a pixel of frame {}", frame),
-                                      [&] { return trace_pixel(scene, plan.pixel->x, plan.pixel->y, exec); });
+    const PixelTrace trace = in_stage(fmt::format("tracing a pixel of frame {}", frame), [&] {
+        FrameCache cache;
+        cache.access = access;
+        return trace_pixel(scene, plan.pixel->x, plan.pixel->y, exec, cache);
+    });
     std::fwrite(trace.text.data(), 1, trace.text.size(), stdout);
 }
 
@@ -228,12 +245,11 @@ int render_command(const RenderOptions& options) {
     const Clock::time_point start = Clock::now();
     RenderPlan plan = in_stage("reading the scene", [&] { return plan_render(options); });
     if (!plan.pixel) check_outputs(plan, options);
-    Scene scene = in_stage("loading the scene", [&] {
-        return build_scene(plan.document, FileAccess{plan.document.folder, options.allowed_paths});
-    });
+    const FileAccess access{plan.document.folder, options.allowed_paths};
+    Scene scene = in_stage("loading the scene", [&] { return build_scene(plan.document, access); });
 
     if (plan.pixel) {
-        explain_pixel(plan, scene, options.exec);
+        explain_pixel(plan, scene, access, options.exec);
         return 0;
     }
 

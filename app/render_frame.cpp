@@ -3,38 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 
+#include "app/frame_shadows.h"
 #include "app/scene_build.h"
+#include "app/stopwatch.h"
 #include "core/parallel.h"
-#include "filters/shadow_lookup.h"
 #include "raster/lighting.h"
 
 namespace obscura {
 namespace {
-
-class Stopwatch {
-  public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-bool casts_shadows(const Light& light) {
-    return sheds_light(light) && light.shadow.method == ShadowMethod::map;
-}
-
-/// Whether the map of one light serves the other.
-bool same_map(const Light& a, const Light& b) {
-    return a.kind == b.kind && a.direction == b.direction && a.position == b.position &&
-           a.outer_cone_deg == b.outer_cone_deg && a.near_m == b.near_m && a.range_m == b.range_m &&
-           a.shadow.resolution == b.shadow.resolution && a.shadow.receivers == b.shadow.receivers &&
-           a.shadow.filter_px == b.shadow.filter_px;
-}
 
 Region crop_of(const RenderSettings& render, const FrameOptions& options) {
     const Region& c = options.crop;
@@ -91,6 +69,8 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
     const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     ProgressMeter meter(options.progress, tiles);
     std::vector<std::int64_t> covered(tiles, 0);
+    const std::size_t lights = scene.lights.size();
+    std::vector<double> lookup_s(tiles * lights, 0.0);
     std::atomic<bool> skipped = false;
     parallel_for(tiles, exec, [&](std::size_t i) {
         if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
@@ -98,6 +78,7 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
             return;
         }
         TileWork work;  // not initialised: every stage writes what the next one reads
+        work.lookup_s = std::span(lookup_s).subspan(i * lights, lights);
         const int column = column0 + static_cast<int>(i) % columns,
                   row = row0 + static_cast<int>(i) / columns;
         covered[i] = render_tile(scene, column, row, options, exec.isa, work, frame);
@@ -106,14 +87,20 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
     frame.complete = !skipped;
     for (const std::int64_t n : covered)
         frame.stats.covered_samples += n;
+    std::size_t shadow = 0;
+    for (std::size_t l = 0; l < lights; ++l) {
+        if (!scene.lights[l].pcf) continue;
+        double& sum = frame.stats.lights[shadow++].lookup_s;
+        for (std::size_t i = 0; i < tiles; ++i)
+            sum += lookup_s[i * lights + l];
+    }
     frame.stats.samples = static_cast<std::int64_t>(tiles) * frame_tile_side * frame_tile_side *
                           static_cast<std::int64_t>(scene.pattern.size());
 }
 
 }  // namespace
 
-bool prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats,
-                   const std::atomic<bool>* cancel) {
+void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats) {
     if (!cache.prepared) {
         const Stopwatch watch;
         surface_tables(scene.mesh, scene.materials, exec, cache.surface);
@@ -122,29 +109,6 @@ bool prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, Fram
         stats.surface_s = watch.seconds();
     }
     CHECK(cache.surface.triangles.size() == scene.mesh.triangles.size(), "the mesh changed without forget()");
-
-    const Stopwatch watch;
-    std::size_t used = 0;
-    if (!cache.bounds.empty()) {
-        for (const Light& light : scene.lights) {
-            if (!casts_shadows(light)) continue;
-            if (used == cache.shadows.size()) cache.shadows.emplace_back();
-            FrameCache::Shadow& shadow = cache.shadows[used++];
-            const bool kept = !shadow.map.views.empty() && same_map(shadow.light, light);
-            shadow.light = light;
-            if (!kept) {
-                if (!build_shadow_map(scene.mesh, light, cache.bounds, exec, cache.light_scratch, shadow.map,
-                                      cancel)) {
-                    return false;
-                }
-                stats.shadow_maps += static_cast<std::int64_t>(shadow.map.views.size());
-            }
-            stats.shadow_bytes += dense_map_bytes(light);
-        }
-    }
-    cache.shadows.resize(used);
-    stats.shadow_s = watch.seconds();
-    return true;
 }
 
 TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache) {
@@ -167,16 +131,12 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
     t.textured = !scene.mesh.uvs.empty() && std::any_of(scene.materials.begin(), scene.materials.end(),
                                                         [](const Material& m) { return m.texture >= 0; });
     t.sky = shade_sky(scene.sky);
-    std::size_t shadow = 0;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
         if (!sheds_light(light)) continue;
         TileLight& tile_light = t.lights.emplace_back();
         tile_light.scene_light = i;
         tile_light.shade = shade_light_of(light, scene.camera.eye);
-        if (casts_shadows(light) && shadow < cache.shadows.size()) {
-            tile_light.pcf = pcf_light(light, cache.shadows[shadow++].map, scene.camera.eye);
-        }
     }
     return t;
 }
@@ -189,19 +149,24 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     const MemoryEstimate memory = estimate_memory(scene);
     frame.stats.bytes = memory.total();
     check_memory(memory, scene.limits, "the frame");
-    if (!prepare_scene(scene, exec, cache, frame.stats, options.cancel)) {
+    prepare_scene(scene, exec, cache, frame.stats);
+
+    const Stopwatch setup;
+    TileScene tiles = prepare_tiles(scene, exec, cache);
+    for (const RecordBlock& block : tiles.setup->blocks)
+        frame.stats.records += static_cast<std::int64_t>(block.count);
+    frame.stats.bin_items = static_cast<std::int64_t>(tiles.bins->items.size());
+    frame.stats.setup_s = setup.seconds();
+    const std::int64_t other_bytes = memory.total() - memory.shadow_maps;
+    if (!prepare_shadows(scene, other_bytes, exec, cache, tiles, frame.stats, options.cancel)) {
         size_frame(crop_of(scene.render, options), options, frame);
         frame.complete = false;
         frame.stats.total_s = total.seconds();
         return;
     }
 
-    const Stopwatch setup;
-    const TileScene tiles = prepare_tiles(scene, exec, cache);
-    for (const RecordBlock& block : tiles.setup->blocks)
-        frame.stats.records += static_cast<std::int64_t>(block.count);
-    frame.stats.bin_items = static_cast<std::int64_t>(tiles.bins->items.size());
-    frame.stats.setup_s = setup.seconds();
+    for (const LightShadow& shadow : cache.shadows)
+        frame.stats.lights.push_back(shadow.stats);
 
     const Stopwatch shade;
     size_frame(crop_of(scene.render, options), options, frame);

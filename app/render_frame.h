@@ -1,13 +1,16 @@
 #pragma once
-// From a scene to a frame: shadow maps, setup, tiles.
+// From a scene to a frame: setup, shadows, tiles.
 
+#include <optional>
 #include <vector>
 
+#include "app/file_access.h"
 #include "app/frame.h"
 #include "app/frame_tile.h"
+#include "app/light_shadow.h"
 #include "core/isa.h"
 #include "core/scene.h"
-#include "raster/shadow_map.h"
+#include "hierarchy/tree_file.h"
 #include "raster/surface.h"
 
 namespace obscura {
@@ -15,34 +18,35 @@ namespace obscura {
 /// What frames of one sequence share: kept between calls as long as mesh, materials and textures stay (only
 /// camera, lights, sky and settings may change). Call forget() when they do not.
 struct FrameCache {
-    struct Shadow {
-        Light light;  ///< the map is kept while this stays, colour aside
-        ShadowMap map;
-    };
     bool prepared = false;
     Bounds bounds;
     SurfaceTables surface;
-    std::vector<Shadow> shadows;  ///< of the lights with shadows, in scene order
+    /// Of the lights with shadows, in scene order. One is kept while its light stays, colour aside; when it
+    /// was built for one picture (scope "frame"), also only while the camera stays.
+    std::vector<LightShadow> shadows;
+    FileAccess access;                    ///< where shadow caches may lie
+    std::optional<TreeFileKey> geometry;  ///< geometry_key() of the mesh, once a cache asks
     RasterScratch camera_scratch, light_scratch;
     void forget() { *this = FrameCache{}; }
 };
 
 /// Renders scene.camera's picture, or the crop of it. Checks memory against scene.limits first (LimitError).
-/// `frame` may hold an earlier frame: its memory is used again. The same bits for any exec.
+/// `frame` may hold an earlier frame: its memory is used again. The same bits for any exec, and a crop's are
+/// those of the whole picture (shadows are made for the whole).
 void render_frame(const Scene& scene, const FrameOptions& options, const Exec& exec, FrameCache& cache,
                   Frame& frame);
 
 /// The same, nothing kept.
 Frame render_frame(const Scene& scene, const FrameOptions& options = {}, const Exec& exec = {});
 
-// The two steps that come before the tiles, for traces, tests and lessons.
+// The steps that come before the tiles, for traces, tests and lessons: these two, then prepare_shadows()
+// (app/frame_shadows.h), which gives the lights their shadows.
 
-/// Fills the cache: surface triangles and shadow maps. Adds to `stats`. False when `cancel` was set before
-/// the maps were done.
-bool prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats,
-                   const std::atomic<bool>* cancel = nullptr);
+/// Fills the cache's tables of surface triangles. Adds to `stats`.
+void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats);
 
-/// Sets the camera's triangles up and gathers what the tiles read; borrows from scene and cache.
+/// Sets the camera's triangles up and gathers what the tiles read; borrows from scene and cache. The lights
+/// have no shadows yet.
 TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache);
 
 }  // namespace obscura

@@ -10,13 +10,6 @@
 namespace obscura {
 namespace {
 
-/// Most memory this process ever held, bytes.
-std::int64_t peak_resident_bytes() {
-    struct rusage usage {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
 void put_memory(JsonWriter& json, const RenderReport& report) {
     json.key("memory").begin_object();
     json.member("limit_bytes", report.limit_mib << 20);
@@ -32,7 +25,8 @@ void put_memory(JsonWriter& json, const RenderReport& report) {
 void put_seconds(JsonWriter& json, const FrameReport& frame) {
     const FrameStats& s = frame.stats;
     json.key("seconds").begin_object();
-    json.member("surface", s.surface_s).member("shadow", s.shadow_s).member("setup", s.setup_s);
+    json.member("surface", s.surface_s).member("setup", s.setup_s).member("shadow", s.shadow_s);
+    json.member("shadow_resolution", s.resolution_s).member("shadow_needed", s.needed_s);
     json.member("tiles", s.tiles_s).member("render", s.total_s).member("write", frame.write_s);
     json.end_object();
 }
@@ -42,6 +36,38 @@ void put_counts(JsonWriter& json, const FrameStats& s) {
     json.member("triangles", s.triangles).member("records", s.records).member("bin_items", s.bin_items);
     json.member("samples", s.samples).member("covered_samples", s.covered_samples);
     json.member("shadow_maps", s.shadow_maps).member("shadow_bytes", s.shadow_bytes);
+    json.end_object();
+}
+
+const char* method_name(ShadowMethod method) {
+    return method == ShadowMethod::map ? "map" : "compressed";
+}
+
+std::int64_t count(std::uint64_t n) {
+    return static_cast<std::int64_t>(n);
+}
+
+void put_light(JsonWriter& json, const LightShadowStats& s) {
+    json.begin_object();
+    json.member("light", s.light).member("method", method_name(s.method));
+    json.member("resolution", s.resolution).member("views", s.views).member("bytes", count(s.bytes));
+    json.member("kept", s.kept).member("lookup_s", s.lookup_s);
+    if (s.found) {
+        json.member("magnification", s.found->magnification).member("capped", s.found->capped);
+    }
+    if (s.method == ShadowMethod::compressed) {
+        const BuildStats& b = s.build;
+        json.member("scope", s.scope == ShadowScope::frame ? "frame" : "full");
+        json.member("from_cache", s.from_cache).member("needed", s.needed);
+        json.member("nodes_full", count(s.nodes.full)).member("nodes_empty", count(s.nodes.empty));
+        json.member("nodes_leaf", count(s.nodes.leaf)).member("nodes_visited", count(b.nodes_visited));
+        json.member("certified_cover", count(b.certified_cover));
+        json.member("certified_mesh", count(b.certified_mesh));
+        json.member("texels_rasterized", count(b.texels_rasterized));
+        json.member("list_operations", count(b.list_operations));
+        json.member("setup_s", b.setup_s).member("encode_s", s.encode_s);
+    }
+    json.member("build_s", s.build.build_s);
     json.end_object();
 }
 
@@ -56,6 +82,12 @@ void put_file(JsonWriter& json, const WrittenFile& file) {
 }
 
 }  // namespace
+
+std::int64_t peak_resident_bytes() {
+    struct rusage usage {};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return std::int64_t{usage.ru_maxrss} * 1024;
+}
 
 std::string stats_json(const RenderReport& report) {
     JsonWriter json;
@@ -72,6 +104,10 @@ std::string stats_json(const RenderReport& report) {
         json.begin_object().member("frame", frame.frame);
         put_seconds(json, frame);
         put_counts(json, frame.stats);
+        json.key("lights").begin_list();
+        for (const LightShadowStats& light : frame.stats.lights)
+            put_light(json, light);
+        json.end_list();
         json.key("files").begin_list();
         for (const WrittenFile& file : frame.files)
             put_file(json, file);

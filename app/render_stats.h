@@ -38,6 +38,9 @@ struct RenderReport {
     std::vector<FrameReport> frames;
 };
 
+/// Most memory this process ever held, bytes.
+std::int64_t peak_resident_bytes();
+
 std::string stats_json(const RenderReport& report);
 
 }  // namespace obscura

@@ -25,9 +25,10 @@ Limits limits_of(const SceneDocument& document);
 RenderSettings render_settings_of(const SceneDocument& document);
 
 /// Bytes that rendering one frame holds at once: what `check` tells and rendering is held to. A bound but for
-/// two things, which follow the picture: lists of tiles with more than eight entries per triangle, and layers
-/// where more than twelve surfaces lie behind one another. `frame`: pictures and everything that works on
-/// them.
+/// three things, which follow the picture: lists of tiles with more than eight entries per triangle, layers
+/// where more than twelve surfaces lie behind one another, and compressed shadow maps, whose size is expected
+/// from their resolution (nothing for "auto" before it is found) and held to the limit as soon as it is
+/// known. `frame`: pictures and everything that works on them.
 struct MemoryEstimate {
     std::int64_t meshes = 0, textures = 0, shadow_maps = 0, frame = 0;
     std::int64_t total() const { return meshes + textures + shadow_maps + frame; }
@@ -38,7 +39,8 @@ MemoryEstimate estimate_memory(const Scene& scene);
 /// Of a document before anything is loaded: shapes by their bounds, files and textures as nothing.
 MemoryEstimate estimate_memory(const SceneDocument& document);
 
-/// Stored depths of a light's shadow maps: 0 without shadows, six maps for a point light.
+/// Maps of a light: none without shadows, six for a point light; and the bytes that lookups read of them,
+/// exact for dense maps, expected for compressed ones.
 int shadow_map_count(const Light& light);
 std::int64_t shadow_map_bytes(const Light& light);
 

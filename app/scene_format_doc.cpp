@@ -88,6 +88,10 @@ const char* type_name(KeyType type) {
     return "";
 }
 
+std::string type_text(const KeySpec& key) {
+    return key.word.empty() ? type_name(key.type) : fmt::format("{} or text", type_name(key.type));
+}
+
 /// Keys as rows; tables have sections of their own.
 void add_keys(std::string& out, const std::vector<KeySpec>& keys) {
     out += "\n| key | type | unit | values | default | meaning |\n|---|---|---|---|---|---|\n";
@@ -97,7 +101,7 @@ void add_keys(std::string& out, const std::vector<KeySpec>& keys) {
                                      : key.fallback ? "`" + toml_text(*key.fallback) + "`"
                                                     : "";
         out += fmt::format("| `{}`{} | {} | {} | {} | {} | {} |\n", key.name, key.animated ? " ~" : "",
-                           type_name(key.type), unit_of(key.name), allowed_text(key), fallback, key.doc);
+                           type_text(key), unit_of(key.name), allowed_text(key), fallback, key.doc);
     }
 }
 
@@ -113,7 +117,12 @@ void add_table(std::string& out, const TableSpec& spec) {
     for (const KeySpec& key : spec.keys) {
         // The shadow of a light is documented once, as [shadow.LIGHT].
         const bool again = key.table == &shadow_table() && key.type == KeyType::table;
-        if (key.table != nullptr && !again) add_table(out, *key.table);
+        if (key.table == nullptr || again) continue;
+        if (!key.beside_tables.empty()) {
+            out += fmt::format("\n## `[{}]`\n\nBeside the tables below.\n", key.name);
+            add_keys(out, key.beside_tables);
+        }
+        add_table(out, *key.table);
     }
 }
 

@@ -1,5 +1,7 @@
 // Tables -> camera, lights, settings. Whatever depends on the frame is here.
 
+#include <string_view>
+
 #include "app/keyframes.h"
 #include "app/scene_build.h"
 #include "core/num.h"
@@ -45,13 +47,33 @@ void set_sun(Light& light, const SceneTable& table) {
     }
 }
 
+/// Where text equals one of `names`: its index.
+template <class T, std::size_t n>
+T choice(const SceneTable& table, std::string_view key, const char* const (&names)[n]) {
+    const std::string& value = text(table, key);
+    std::size_t i = 0;
+    while (i + 1 < n && value != names[i])
+        ++i;
+    return static_cast<T>(i);
+}
+
 ShadowSettings shadow_of(const SceneTable& table) {
     ShadowSettings s;
-    s.method = text(table, "method") == "none" ? ShadowMethod::none : ShadowMethod::map;
-    s.resolution = static_cast<int>(integer(table, "resolution"));
+    s.method = choice<ShadowMethod>(table, "method", {"none", "map", "compressed"});
     s.filter_px = static_cast<int>(integer(table, "filter_px"));
-    s.receivers = text(table, "receivers") == "static" ? Receivers::static_only : Receivers::any;
+    s.receivers = choice<Receivers>(table, "receivers", {"any", "static"});
     s.normal_offset_texels = number(table, "normal_offset_texels");
+    if (s.method == ShadowMethod::none) return s;
+    const SceneValue& resolution = table.find("resolution")->value;
+    const auto* texels = std::get_if<std::int64_t>(&resolution.data);
+    s.resolution = texels != nullptr ? static_cast<int>(*texels) : auto_resolution;
+    if (s.method == ShadowMethod::map) return s;
+    s.scope = choice<ShadowScope>(table, "scope", {"frame", "full"});
+    s.filter = choice<ShadowFilter>(table, "filter", {"pcf", "hierarchical"});
+    s.max_magnification = number(table, "max_magnification");
+    s.layout = choice<ShadowLayout>(table, "layout", {"words24", "words16", "bytes16"});
+    s.top_levels = static_cast<int>(integer(table, "top_levels"));
+    if (table.has("cache")) s.cache = text(table, "cache");
     return s;
 }
 

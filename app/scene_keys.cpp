@@ -165,35 +165,6 @@ const TableSpec& camera_table() {
     return spec;
 }
 
-const TableSpec& shadow_table() {
-    static const ShadowSettings d;
-    static const TableSpec spec{
-        "[shadow.LIGHT]",
-        "How the light with the id LIGHT casts shadows. The same keys may stand in the light itself, as "
-        "`shadow = {...}` "
-        "or [light.shadow].",
-        {
-            choice_key("method", {"none", "map"}, "none: the light passes through everything.")
-                .or_else("map"),
-            integer_key(
-                "resolution",
-                "Texels per side of a map; points use six maps. The map of a parallel light covers the whole "
-                "scene: keep grounds small; `obscura check` tells the size of a texel.")
-                .one_of({16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384})
-                .or_else(std::int64_t{d.resolution}),
-            integer_key("filter_px", "Side of the percentage-closer filter, in texels.")
-                .one_of({1, 3, 5})
-                .or_else(std::int64_t{d.filter_px}),
-            number_key("normal_offset_texels", "Bias of receivers on open surfaces; solids need none.")
-                .in({0, 100})
-                .or_else(d.normal_offset_texels),
-            choice_key("receivers", {"any", "static"}, "As in [render], whose value is the default."),
-        },
-        "",
-        {}};
-    return spec;
-}
-
 namespace {
 
 std::vector<KeySpec> directional_keys() {
@@ -359,7 +330,7 @@ const TableSpec& scene_schema_root() {
             table_list_key("mesh", mesh_table()),
             table_map_key("material", material_table()),
             table_list_key("light", light_table()),
-            table_map_key("shadow", shadow_table()),
+            table_map_key("shadow", shadow_table()).beside({shadow_cache_key()}),
             table_key("sky", sky_table()),
             table_key("render", render_table()),
             table_list_key("output", output_table()),

@@ -10,6 +10,7 @@ const TableSpec& camera_table();
 const TableSpec& mesh_table();
 const TableSpec& light_table();
 const TableSpec& shadow_table();
+KeySpec shadow_cache_key();  ///< also stands in [shadow] itself
 const TableSpec& frames_table();
 
 }  // namespace obscura

@@ -10,6 +10,9 @@
 #include "app/scene_shapes.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "hierarchy/facets.h"
+#include "hierarchy/multires.h"
+#include "hierarchy/tree_code.h"
 #include "raster/layer_tile.h"
 #include "raster/surface.h"
 
@@ -26,6 +29,18 @@ constexpr std::int64_t depth_bytes = 4;
 std::int64_t picture_bytes(const RenderSettings& render) {
     return std::int64_t{render.width} * render.height * pixel_bytes;
 }
+
+/// Nodes of one view's tree. A model, not a bound: they grow with the length of the outlines on the map, that
+/// is with its side; Scandolo, Bauszat and Eisemann 2016, table 1, have 31 to 32 per texel of the side in all
+/// scenes and resolutions. Nothing where the picture decides the resolution: it is found later.
+std::int64_t expected_nodes(const ShadowSettings& shadow) {
+    constexpr std::int64_t nodes_per_side = 32;
+    return std::min(nodes_per_side * shadow.resolution,
+                    std::int64_t{shadow.resolution} * shadow.resolution * 4 / 3);
+}
+
+/// Serialised: a leaf or an empty node takes 4 bytes, a full one 8.
+constexpr std::int64_t node_bytes = 6;
 
 /// One view at work: vertices, records and planes, lists of tiles (the counts of every block of triangles,
 /// and the entries). Most triangles lie in one tile; we allow eight each, and every record in every tile
@@ -52,6 +67,15 @@ std::int64_t thread_bytes(bool shadows) {
     return hardware_threads() * (std::int64_t{sizeof(TileWork)} + (shadows ? layer_bytes : 0));
 }
 
+/// A compressed map under construction: setup without tiles, a facet per triangle and what threads list of
+/// them, and the nodes of one view's tree, twice (parts are joined).
+std::int64_t construction_bytes(const Mesh& mesh, const ShadowSettings& shadow) {
+    const auto triangles = static_cast<std::int64_t>(mesh.triangles.size());
+    const std::int64_t lists = (hardware_threads() + 1) * 2 * std::int64_t{sizeof(Listed)};
+    return view_bytes(mesh, 0, 0) + triangles * (std::int64_t{sizeof(Facet)} + lists) +
+           2 * expected_nodes(shadow) * std::int64_t{sizeof(MultiresNode)};
+}
+
 /// Setup of the camera and of one light at a time, and tables of surfaces.
 std::int64_t work_bytes(const Scene& scene) {
     const Mesh& mesh = scene.mesh;
@@ -60,8 +84,11 @@ std::int64_t work_bytes(const Scene& scene) {
                                                    mesh.positions.size() * sizeof(SurfaceVertex));
     std::int64_t light = 0;
     for (const Light& l : scene.lights) {
-        if (shadow_map_count(l) > 0)
+        if (l.shadow.method == ShadowMethod::map) {
             light = std::max(light, view_bytes(mesh, l.shadow.resolution, l.shadow.resolution));
+        } else if (l.shadow.method == ShadowMethod::compressed) {
+            light = std::max(light, construction_bytes(mesh, l.shadow));
+        }
     }
     return bytes + light + thread_bytes(light > 0);
 }
@@ -78,8 +105,14 @@ int shadow_map_count(const Light& light) {
 }
 
 std::int64_t shadow_map_bytes(const Light& light) {
-    return shadow_map_count(light) * std::int64_t{light.shadow.resolution} * light.shadow.resolution *
-           depth_bytes;
+    const ShadowSettings& s = light.shadow;
+    const std::int64_t views = shadow_map_count(light);
+    if (s.method == ShadowMethod::map) {
+        return views * std::int64_t{s.resolution} * s.resolution * depth_bytes;
+    }
+    const std::int64_t top =
+        s.resolution == auto_resolution ? 0 : std::int64_t{sizeof(TopNode)} << (2 * s.top_levels);
+    return views * (expected_nodes(s) * node_bytes + top);
 }
 
 MemoryEstimate estimate_memory(const Scene& scene) {

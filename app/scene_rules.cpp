@@ -8,6 +8,7 @@
 
 #include "app/keyframes.h"
 #include "app/scene_keys.h"
+#include "app/scene_rules_shadow.h"
 #include "app/scene_shapes.h"
 #include "app/scene_validate.h"
 #include "core/error.h"
@@ -41,12 +42,6 @@ std::vector<std::string> keys_of(const SceneTable& table) {
     for (const SceneEntry& entry : table.entries)
         keys.push_back(entry.key);
     return keys;
-}
-
-void require_known(const std::string& name, const Place& place, const std::vector<std::string>& known,
-                   const char* what, const Sources& sources) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    fail_at(place, sources, fmt::format("there is no {} '{}'{}", what, name, hint(name, known)));
 }
 
 // --- camera
@@ -120,31 +115,6 @@ void check_triangles(const SceneDocument& document) {
 }
 
 // --- lights
-
-void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, const Sources& sources) {
-    const SceneTable none;
-    const SceneTable& shadows = root.has("shadow") ? subtable(root, "shadow") : none;
-    for (const SceneEntry& entry : shadows.entries)
-        require_known(entry.key, entry.place, light_ids, "light", sources);
-    if (!root.has("light")) return;
-    for (SceneValue& item : std::get<SceneList>(root.find("light")->value.data)) {
-        auto& light = std::get<SceneTable>(item.data);
-        const SceneEntry* shadow = shadows.find(text(light, "id"));
-        if (shadow != nullptr) {
-            if (place_of(light, "shadow").source >= 0) {
-                fail_at(shadow->place, sources,
-                        fmt::format("light '{}' has its own 'shadow'; set light.{}.shadow instead",
-                                    shadow->key, shadow->key));
-            }
-            light.set("shadow", shadow->value);
-        }
-        auto& settings = std::get<SceneTable>(light.find("shadow")->value.data);
-        if (!settings.has("receivers")) {
-            settings.set("receivers", value_of(text(subtable(root, "render"), "receivers").c_str()));
-        }
-    }
-    root.erase("shadow");
-}
 
 void check_light(const SceneTable& light, const Sources& sources) {
     const std::string& type = text(light, "type");

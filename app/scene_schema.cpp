@@ -104,7 +104,8 @@ std::string unit_of(std::string_view name) {
 
 std::string allowed_text(const KeySpec& key) {
     if (!key.choices.empty()) return fmt::format("one of \"{}\"", fmt::join(key.choices, "\", \""));
-    if (!key.allowed.empty()) return fmt::format("one of {}", fmt::join(key.allowed, ", "));
+    const std::string word = key.word.empty() ? "" : fmt::format(" or \"{}\"", key.word);
+    if (!key.allowed.empty()) return fmt::format("one of {}{}", fmt::join(key.allowed, ", "), word);
     const Range& r = key.range;
     const bool below = r.hi != std::numeric_limits<double>::infinity();
     const bool above = r.lo != -std::numeric_limits<double>::infinity();

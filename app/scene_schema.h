@@ -49,8 +49,10 @@ struct KeySpec {
     Range range;
     std::vector<std::string> choices;
     std::vector<std::int64_t> allowed;  ///< integers: exactly these, when not empty
+    std::string word;                   ///< integers: this text is allowed instead, when not empty
     std::optional<SceneValue> fallback;
     const TableSpec* table = nullptr;
+    std::vector<KeySpec> beside_tables;  ///< table_map: keys that stand beside the [key.NAME]s
 
     // A key reads as a sentence: number("vfov_deg", "...").in(Range{0, 180, true, true}).animate().
     KeySpec&& need() && { return required = true, std::move(*this); }
@@ -58,6 +60,10 @@ struct KeySpec {
     KeySpec&& in(Range r) && { return range = r, std::move(*this); }
     KeySpec&& one_of(std::vector<std::int64_t> values) && {
         return allowed = std::move(values), std::move(*this);
+    }
+    KeySpec&& or_word(std::string w) && { return word = std::move(w), std::move(*this); }
+    KeySpec&& beside(std::vector<KeySpec> keys) && {
+        return beside_tables = std::move(keys), std::move(*this);
     }
     template <class T>
     KeySpec&& or_else(T value) && {

@@ -19,7 +19,7 @@ std::string type_text(const KeySpec& key) {
         case KeyType::boolean:
             return "true or false";
         case KeyType::integer:
-            return "an integer";
+            return key.word.empty() ? "an integer" : fmt::format("an integer or \"{}\"", key.word);
         case KeyType::number:
             return unit.empty() ? "a number" : "a number of " + unit;
         case KeyType::text:
@@ -121,10 +121,12 @@ SceneValue checked_list(const KeySpec& key, const SceneValue& value, const Sourc
     if (list == nullptr || list->size() != (integers ? 2u : 3u)) wrong_type(key, value, sources);
     SceneList checked;
     for (const SceneValue& item : *list) {
+        SceneValue& number = checked.emplace_back();
+        number.place = item.place;
         if (integers) {
-            checked.push_back({checked_integer(key, item, sources), item.place});
+            number.data = checked_integer(key, item, sources);
         } else {
-            checked.push_back({checked_number(key, item, sources), item.place});
+            number.data = checked_number(key, item, sources);
         }
     }
     return {std::move(checked), value.place};
@@ -164,23 +166,34 @@ SceneValue checked_date_time(const KeySpec& key, const SceneValue& value, const 
     return value;
 }
 
+SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sources& sources);
+
+/// [key.NAME] tables, and the keys beside them.
+SceneValue checked_map(const KeySpec& key, const SceneValue& value, const Sources& sources) {
+    const auto* table = std::get_if<SceneTable>(&value.data);
+    if (table == nullptr) wrong_type(key, value, sources);
+    SceneTable map;
+    for (const SceneEntry& entry : table->entries) {
+        const auto* inner = std::get_if<SceneTable>(&entry.value.data);
+        const auto beside = std::find_if(key.beside_tables.begin(), key.beside_tables.end(),
+                                         [&](const KeySpec& k) { return k.name == entry.key; });
+        if (inner == nullptr && beside != key.beside_tables.end()) {
+            map.set(entry.key, checked_value(*beside, entry.value, sources));
+            continue;
+        }
+        check_name(entry.key, fmt::format("the NAME of [{}.NAME]", key.name), entry.place, sources);
+        if (inner == nullptr) wrong_type(key, entry.value, sources);
+        map.set(entry.key,
+                {validate_table(*inner, entry.value.place, *key.table, sources), entry.value.place});
+    }
+    return {std::move(map), value.place};
+}
+
 SceneValue checked_tables(const KeySpec& key, const SceneValue& value, const Sources& sources) {
     const auto* table = std::get_if<SceneTable>(&value.data);
     if (key.type == KeyType::table) {
         if (table == nullptr) wrong_type(key, value, sources);
         return {validate_table(*table, value.place, *key.table, sources), value.place};
-    }
-    if (key.type == KeyType::table_map) {
-        if (table == nullptr) wrong_type(key, value, sources);
-        SceneTable map;
-        for (const SceneEntry& entry : table->entries) {
-            check_name(entry.key, fmt::format("the NAME of [{}.NAME]", key.name), entry.place, sources);
-            const auto* inner = std::get_if<SceneTable>(&entry.value.data);
-            if (inner == nullptr) wrong_type(key, entry.value, sources);
-            map.set(entry.key,
-                    {validate_table(*inner, entry.value.place, *key.table, sources), entry.value.place});
-        }
-        return {std::move(map), value.place};
     }
     const auto* list = std::get_if<SceneList>(&value.data);
     if (list == nullptr) wrong_type(key, value, sources);
@@ -213,8 +226,11 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::boolean:
             if (!std::holds_alternative<bool>(value.data)) wrong_type(key, value, sources);
             return value;
-        case KeyType::integer:
+        case KeyType::integer: {
+            const auto* word = std::get_if<std::string>(&value.data);
+            if (word != nullptr && !key.word.empty() && *word == key.word) return value;
             return {checked_integer(key, value, sources), value.place};
+        }
         case KeyType::number:
             return {checked_number(key, value, sources), value.place};
         case KeyType::text:
@@ -230,8 +246,9 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
             return checked_date_time(key, value, sources);
         case KeyType::table:
         case KeyType::table_list:
-        case KeyType::table_map:
             return checked_tables(key, value, sources);
+        case KeyType::table_map:
+            return checked_map(key, value, sources);
         case KeyType::name_map:
             return checked_name_map(key, value, sources);
     }
@@ -281,6 +298,12 @@ const VariantSpec* raw_variant(const SceneTable& raw, const Place& place, const 
 void fail_at(const Place& place, const Sources& sources, const std::string& message) {
     const std::size_t source = place.source >= 0 ? static_cast<std::size_t>(place.source) : 0;
     throw InputError(sources.at(source), place.line, place.column, message);
+}
+
+void require_known(const std::string& name, const Place& place, const std::vector<std::string>& known,
+                   const char* what, const Sources& sources) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
+    fail_at(place, sources, fmt::format("there is no {} '{}'{}", what, name, hint(name, known)));
 }
 
 SceneTable validate_table(const SceneTable& raw, const Place& place, const TableSpec& spec,

@@ -14,6 +14,10 @@ namespace obscura {
 [[noreturn]] void fail_at(const Place& place, const std::vector<std::string>& sources,
                           const std::string& message);
 
+/// Fails at `place` when `name` is not among the `known` ones; `what` they are ("material").
+void require_known(const std::string& name, const Place& place, const std::vector<std::string>& known,
+                   const char* what, const std::vector<std::string>& sources);
+
 /// Validates `raw` (written at `place`) against `spec`. Integers become doubles where numbers are wanted,
 /// single numbers become triples where colours or scales are wanted. Throws InputError: unknown key (with the
 /// nearest known one), wrong type, range, missing key.

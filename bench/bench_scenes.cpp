@@ -44,6 +44,7 @@ BenchScene stage_scene(std::string name, Mesh mesh, const BenchSize& size) {
     sun.id = "sun";
     sun.direction = normalize(Vec3d{-0.137, -0.848, -0.512});  // its map is about half full
     sun.color = {1.8f, 1.8f, 1.8f};  // keeps Phong below 1: llvmpipe paints 8-bit pictures
+    sun.shadow.method = ShadowMethod::map;
     sun.shadow.resolution = size.map_px;
     sun.shadow.filter_px = 1;
     scene.lights = {sun};

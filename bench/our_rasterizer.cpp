@@ -35,7 +35,7 @@ void draw_intervals(OurState& s) {
 
 void draw_frame(OurState& s, bool light_moved) {
     // A map that was made for another resolution is made again, in the memory it has.
-    for (FrameCache::Shadow& shadow : s.cache.shadows) {
+    for (LightShadow& shadow : s.cache.shadows) {
         if (light_moved) shadow.light.shadow.resolution = 0;
     }
     render_frame(s.bench->scene, {}, s.exec, s.cache, s.frame);

@@ -41,17 +41,37 @@ struct Camera {
 };
 
 enum class LightKind { directional, sun, point, spot };
-enum class ShadowMethod { none, map };
+/// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals.
+enum class ShadowMethod { none, map, compressed };
 /// Who receives shadows: `any` point outside solids (the papers' rule), or only the scene's own surfaces,
 /// where the interval of an open crossing may reach up to the next surface.
 enum class Receivers { any, static_only };
 
+/// Which part of a compressed map is built: what the frame's lookups ask for, or everything.
+enum class ShadowScope { frame, full };
+/// `pcf`: a kernel of texels. `hierarchical`: of the squares that are as large as the pixel on the map.
+enum class ShadowFilter { pcf, hierarchical };
+/// How a compressed map's nodes are written: words with offsets of 24 or 16 bits, or bytes without padding.
+enum class ShadowLayout { words24, words16, bytes16 };
+
+constexpr int auto_resolution = 0;
+constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;
+
 struct ShadowSettings {
-    ShadowMethod method = ShadowMethod::map;
-    int resolution = 4096;  ///< texels per side, a power of two in [16, 16384]
-    int filter_px = 3;      ///< PCF kernel side: 1, 3 or 5 texels
+    ShadowMethod method = ShadowMethod::compressed;
+    /// Texels per side, a power of two from least_map_resolution to most_dense_resolution (map) or
+    /// most_map_resolution (compressed); or, compressed only, auto_resolution.
+    int resolution = auto_resolution;
+    int filter_px = 3;  ///< PCF kernel side: 1, 3 or 5 texels
     Receivers receivers = Receivers::any;
     double normal_offset_texels = 1.5;  ///< bias of receivers on open components only
+    // Compressed only.
+    ShadowScope scope = ShadowScope::frame;
+    ShadowFilter filter = ShadowFilter::pcf;
+    double max_magnification = 1.0;  ///< auto: pixels that a texel spans at most, the shorter way
+    ShadowLayout layout = ShadowLayout::words24;
+    int top_levels = 6;  ///< first levels that are kept as a table, in [0, 10]
+    std::string cache;   ///< folder for finished maps of scope full; empty: none
 };
 
 struct Light {

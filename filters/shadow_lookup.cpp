@@ -85,7 +85,7 @@ PcfLight pcf_light(const Light& light, std::span<const ShadowTree> trees, Vec3d 
 }
 
 void filter_hierarchically(PcfLight& light, const CameraRays& camera) {
-    CHECK(light.view[0].tree != nullptr, "dense maps have one level");
+    CHECK(light.view[0].stored == nullptr, "dense maps have one level");
     light.filter = PcfFilter::hierarchical;
     light.camera = camera;
 }

@@ -22,7 +22,7 @@ PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye);
 /// light.shadow.filter_px may be any odd number from 1 to max_tree_pcf_side.
 PcfLight pcf_light(const Light& light, std::span<const ShadowTree> trees, Vec3d eye);
 
-/// Turns a light with trees to hierarchical filtering, for pictures of that camera.
+/// Turns a light with trees, or still without, to hierarchical filtering, for pictures of that camera.
 void filter_hierarchically(PcfLight& light, const CameraRays& camera);
 
 namespace ref {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "app/frame_shadows.h"
 #include "app/scene_build.h"
 #include "frame_scenes.h"
 
@@ -49,7 +50,8 @@ TEST_P(EveryIsa, StagesAgreeWithTheReferenceBitForBit) {
     FrameStats stats;
     const Exec exec;
     prepare_scene(scene, exec, cache, stats);
-    const TileScene tiles = prepare_tiles(scene, exec, cache);
+    TileScene tiles = prepare_tiles(scene, exec, cache);
+    prepare_shadows(scene, 0, exec, cache, tiles, stats);
     const auto expected = std::make_unique<TileWork>(), actual = std::make_unique<TileWork>();
     std::int64_t blocks = 0, textured = 0, thin = 0, open = 0;
     for (int tile_row = 0; tile_row < tiles.bins->rows; ++tile_row) {

@@ -38,6 +38,7 @@ inline Light directional(Vec3d direction, Vec3f irradiance, int filter_px = 3, i
     light.kind = LightKind::directional;
     light.direction = normalize(direction);
     light.color = irradiance;
+    light.shadow.method = ShadowMethod::map;
     light.shadow.filter_px = filter_px;
     light.shadow.resolution = resolution;
     return light;
@@ -50,6 +51,7 @@ inline Light at_point(LightKind kind, Vec3d position, Vec3d direction, Vec3f int
     light.direction = normalize(direction);
     light.color = intensity;
     light.range_m = 30;
+    light.shadow.method = ShadowMethod::map;
     light.shadow.resolution = 256;
     return light;
 }

@@ -272,7 +272,7 @@ TEST_F(SceneBuild, SceneFilesMustBeRegularFiles) {
 TEST_F(SceneBuild, LimitsStopBeforeAllocating) {
     const std::string maps =
         "[[light]]\nid = \"a\"\ntype = \"point\"\nposition_m = [0, 0, 0]\nintensity_w_sr = 1\n"
-        "shadow.resolution = 16384\n";
+        "shadow = {method = \"map\", resolution = 16384}\n";
     EXPECT_EQ(error<LimitError>(maps),
               "s.toml: needs about 6180 MiB (meshes 0, textures 0, shadow maps 6144, frame 36), more than "
               "limits.memory_mib = 4096");
@@ -310,7 +310,19 @@ id = "lamp"
 type = "point"
 position_m = [0, 3, 0]
 intensity_w_sr = 20
-shadow.resolution = 1024
+shadow = {method = "map", resolution = 1024}
+[[light]]
+id = "spot"
+type = "spot"
+position_m = [0, 3, 0]
+look_at_m = [0, 0, 0]
+intensity_w_sr = 20
+shadow = {resolution = 65536, scope = "full", filter = "hierarchical"}
+[[light]]
+id = "sun"
+type = "directional"
+azimuth_deg = 90
+elevation_deg = 40
 [frames]
 range = "1-48"
 [[output]]
@@ -320,7 +332,12 @@ file = "out_####.png"
     for (const char* line :
          {"picture   960 x 540 pixels, 1 sample each", "frames    48 (1-48)",
           "output    beauty -> out_####.png",
-          "light     lamp: point, 6 shadow maps of 1024 x 1024, filter 3 x 3, 24.0 MiB",
+          "light     lamp: point, 6 dense shadow maps of 1024 x 1024, filter 3 x 3, 24.0 MiB",
+          "light     spot: spot, 1 compressed shadow map of 65536 x 65536, filter 3 x 3, built whole, "
+          "filtered "
+          "hierarchically, about 12.0 MiB",
+          "light     sun: directional, 1 compressed shadow map of 512 x 512, texels of ",
+          "          auto: a texel spans 0.",
           "meshes    12 triangles, 24 vertices, 1 objects, 1 closed and 0 open components", "\nok\n"}) {
         EXPECT_NE(report.find(line), std::string::npos) << line << "\nis not in\n" << report;
     }

@@ -119,7 +119,9 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
                 .value(l.below_horizon)
                 .value(l.shadow.method);
             h.value(l.shadow.resolution).value(l.shadow.filter_px).value(l.shadow.receivers);
-            h.value(l.shadow.normal_offset_texels);
+            h.value(l.shadow.normal_offset_texels).value(l.shadow.scope).value(l.shadow.filter);
+            h.value(l.shadow.max_magnification).value(l.shadow.layout).value(l.shadow.top_levels);
+            words(l.shadow.cache);
         }
     }
     return h.state;
@@ -130,6 +132,7 @@ std::vector<std::string> candidates(const KeySpec& key) {
     static const std::map<std::string, std::vector<std::string>> special = {
         {"file", {"\"other.obj\"", "\"other_####.png\""}},
         {"texture", {"\"other.png\""}},
+        {"cache", {"\"maps\""}},
         {"material", {"\"other\""}},
         {"materials", {"{default = \"other\"}"}},
         {"range", {"\"2-6\""}},

@@ -1,0 +1,28 @@
+#pragma once
+// The shadows of a frame: which lights have some, how fine, what of them is built, kept or read from files.
+
+#include <atomic>
+
+#include "app/frame.h"
+#include "app/frame_tile.h"
+#include "app/render_frame.h"
+#include "core/isa.h"
+#include "core/scene.h"
+
+namespace obscura {
+
+/// Whether the light has a shadow map of any kind.
+bool casts_shadows(const Light& light);
+
+/// Finds what resolution = "auto" means for every light of the scene that says so, for the picture of `tiles`
+/// (prepare_tiles()). One answer per light of the scene, without a value for the others.
+std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene, const TileScene& tiles,
+                                                             const Exec& exec);
+
+/// Makes or keeps the shadows of every light and gives them to the lights of `tiles`. Adds to `stats`. False
+/// when `cancel` was set before they were done. Throws LimitError when they take more memory than is left
+/// after `other_bytes`, and what shadow caches throw.
+bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
+                     TileScene& tiles, FrameStats& stats, const std::atomic<bool>* cancel = nullptr);
+
+}  // namespace obscura

@@ -1,0 +1,39 @@
+#pragma once
+// What one light's shadows are and what they took.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/scene.h"
+#include "hierarchy/build.h"
+
+namespace obscura {
+
+/// What was found for one light.
+struct FoundResolution {
+    int resolution = least_map_resolution;
+    double magnification = 0;  ///< at that resolution, of the pixel that needs most; 0: no pixel asks
+    bool capped = false;       ///< most_map_resolution does not suffice
+    int x = -1, y = -1;        ///< that pixel
+};
+
+/// What one light's shadows are and what they took. Counts of trees are sums over the views.
+struct LightShadowStats {
+    std::string light;
+    ShadowMethod method = ShadowMethod::map;
+    ShadowScope scope = ShadowScope::full;  ///< what was built: a frame that asks for too much gets all
+    int resolution = 0;
+    std::int64_t views = 0;
+    std::optional<FoundResolution> found;  ///< resolution "auto"
+    bool kept = false;                     ///< from the frame before
+    bool from_cache = false;               ///< read from a file
+    MultiresCounts nodes;
+    std::uint64_t bytes = 0;  ///< of the map or the serialised trees, top grids included
+    BuildStats build;
+    std::int64_t needed = 0;  ///< scope "frame": squares that lookups read
+    double encode_s = 0;      ///< serialising; build.setup_s and build.build_s come before
+    double lookup_s = 0;      ///< in lookups, all threads together
+};
+
+}  // namespace obscura

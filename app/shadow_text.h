@@ -1,0 +1,20 @@
+#pragma once
+// Shadows in words, for `render -v` and `check`.
+
+#include <string>
+
+#include "app/light_shadow_stats.h"
+#include "core/scene.h"
+
+namespace obscura {
+
+/// "10.0 KiB".
+std::string size_text(std::int64_t bytes);
+
+/// "auto: 8192 x 8192, a texel spans at most 0.83 pixels, at (12, 480)".
+std::string resolution_text(const FoundResolution& found);
+
+/// What `render -v` tells of one light: some indented lines.
+std::string shadow_text(const LightShadowStats& stats);
+
+}  // namespace obscura
