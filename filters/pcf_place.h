@@ -60,8 +60,13 @@ struct Kernel {
         to_centre_y = static_cast<float>((static_cast<double>(iy) + 0.5) - Y);
         bias = (std::fabs(slope_x) + std::fabs(slope_y)) * (0.5f - 0.5f / square);
     }
-    float rise_x(int i) const { return slope_x * (to_centre_x + static_cast<float>(i - side / 2)); }
-    float rise_y(int j) const { return slope_y * (to_centre_y + static_cast<float>(j - side / 2)); }
+    /// Squares from the receiver's own to tap k.
+    float from_own(int k) const {
+        const int reach = side / 2;
+        return static_cast<float>(k - reach);
+    }
+    float rise_x(int i) const { return slope_x * (to_centre_x + from_own(i)); }
+    float rise_y(int j) const { return slope_y * (to_centre_y + from_own(j)); }
     /// Of the receiver's plane at tap (i, j). Rises are monotone in i and in j, so corners are its extremes.
     float depth_at(int i, int j) const { return depth + lane_min((rise_x(i) + rise_y(j)) - bias, 0.0f); }
     /// Weighted mean of lit(i, j) over the taps.
