@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <optional>
 #include <random>
 
 #include "core/error.h"
@@ -9,6 +13,7 @@
 #include "hard_meshes.h"
 #include "hierarchy/build.h"
 #include "hierarchy/combine.h"
+#include "raster/coverage.h"
 #include "raster/view.h"
 #include "raster_solids.h"
 #include "scenes/shapes.h"
@@ -185,6 +190,157 @@ TEST(ShadowBuild, SameTreeHoweverTheWorkIsCut) {
             }
         }
     }
+}
+
+/// The recursion at its simplest, for any formula of depth: a square is decided when every triangle near it
+/// covers its four corner texels, in one order with room to spare; K is then taken from the corners.
+class CornerTree {
+  public:
+    using DepthAt = float (*)(const TriangleRecord& t, int x, int y);
+    using Quadtree = MultiresBuilder<2>;
+
+    CornerTree(std::vector<TriangleRecord> records, DepthAt depth)
+        : records_(std::move(records)), depth_(depth) {}
+
+    Quadtree::Part build(int x0, int y0, int side, const std::vector<std::uint32_t>& from) {
+        if (side == 1) return Quadtree::texel(interval_of(crossings(from, x0, y0), Receivers::any));
+        std::vector<std::uint32_t> list;
+        for (const std::uint32_t i : from) {
+            if (reaches(records_[i], x0, y0, side)) list.push_back(i);
+        }
+        if (const auto common = decide(x0, y0, side, list)) {
+            decided += !list.empty() && side > 2;
+            return Quadtree::texel(*common);
+        }
+        const int half = side / 2;
+        const Quadtree::Part child[4] = {build(x0, y0, half, list), build(x0 + half, y0, half, list),
+                                         build(x0, y0 + half, half, list),
+                                         build(x0 + half, y0 + half, half, list)};
+        return tree.join(child);
+    }
+    MultiresTree whole(int side) {
+        std::vector<std::uint32_t> all(records_.size());
+        std::iota(all.begin(), all.end(), 0u);
+        const Quadtree::Part root = build(0, 0, side, all);
+        MultiresTree result;
+        result.levels = std::countr_zero(static_cast<unsigned>(side));
+        result.root = MultiresNode(stored_depth(root.interval), root.kinds, root.first_child);
+        result.root_interval = root.interval;
+        result.nodes = tree.nodes;
+        return result;
+    }
+    /// The definition with the same formula of depth.
+    MultiresTree bottom_up(int side) const {
+        std::vector<std::uint32_t> all(records_.size());
+        std::iota(all.begin(), all.end(), 0u);
+        Image<DepthInterval> map(side, side);
+        for (int y = 0; y < side; ++y) {
+            for (int x = 0; x < side; ++x)
+                map(x, y) = interval_of(crossings(all, x, y), Receivers::any);
+        }
+        return build_bottom_up(map.view());
+    }
+    int decided = 0;
+    Quadtree tree;
+
+  private:
+    /// Not when all four corner texels lie outside one of its edges.
+    static bool reaches(const TriangleRecord& t, int x0, int y0, int side) {
+        for (int k = 0; k < 3; ++k) {
+            const EdgeFunction e = edge_function(t, k);
+            int outside = 0;
+            for (int c = 0; c < 4; ++c)
+                outside +=
+                    e.at((x0 + c % 2 * (side - 1)) * 256 + 128, (y0 + c / 2 * (side - 1)) * 256 + 128) < 0;
+            if (outside == 4) return false;
+        }
+        return true;
+    }
+    DepthInterval interval_of(const std::vector<LayerCrossing>& c, Receivers receivers) const {
+        return c.empty() ? DepthInterval{} : obscura::interval_of(c, receivers);
+    }
+    std::vector<LayerCrossing> crossings(const std::vector<std::uint32_t>& list, int x, int y) const {
+        std::vector<LayerCrossing> c;
+        for (const std::uint32_t i : list) {
+            if (covers(records_[i], x, y))
+                c.push_back({depth_(records_[i], x, y), records_[i].crossing, records_[i].triangle});
+        }
+        std::sort(c.begin(), c.end(), comes_before);
+        return c;
+    }
+    std::optional<DepthInterval> decide(int x0, int y0, int side,
+                                        const std::vector<std::uint32_t>& list) const {
+        DepthInterval common{0, 1};
+        std::vector<std::uint32_t> order;
+        for (int k = 0; k < 4; ++k) {
+            const auto c = crossings(list, x0 + k % 2 * (side - 1), y0 + k / 2 * (side - 1));
+            if (c.size() != list.size()) return {};
+            std::vector<std::uint32_t> here;
+            for (std::size_t i = 0; i < c.size(); ++i) {
+                if (i > 0 && c[i].depth - c[i - 1].depth < 1e-5f) return {};
+                here.push_back(c[i].triangle);
+            }
+            if (k > 0 && here != order) return {};
+            order = here;
+            const DepthInterval interval = interval_of(c, Receivers::any);
+            common = {std::max(common.entry, interval.entry), std::min(common.exit, interval.exit)};
+        }
+        if (common.entry > common.exit) return {};
+        return common;
+    }
+
+    std::vector<TriangleRecord> records_;
+    DepthAt depth_;
+};
+
+float plane_depth(const TriangleRecord& t, int x, int y) {
+    return depth_at(t, x + 0.5, y + 0.5);
+}
+
+/// The mean of the corners' depths by the areas across from them, in float: not monotone along a row.
+float barycentric_depth(const TriangleRecord& t, int x, int y) {
+    const auto area = [](double ax, double ay, double bx, double by, double cx, double cy) {
+        return static_cast<float>((bx - ax) * (cy - ay) - (cx - ax) * (by - ay));
+    };
+    double X[3], Y[3];
+    float z[3];
+    for (int k = 0; k < 3; ++k) {
+        X[k] = t.x[k] / 256.0;
+        Y[k] = t.y[k] / 256.0;
+        z[k] = depth_at(t, X[k], Y[k]);
+    }
+    const double px = x + 0.5, py = y + 0.5;
+    const float all = area(X[0], Y[0], X[1], Y[1], X[2], Y[2]);
+    const float u = area(px, py, X[1], Y[1], X[2], Y[2]) / all;
+    const float v = area(X[0], Y[0], px, py, X[2], Y[2]) / all;
+    const float depth = u * z[0] + v * z[1] + (1 - u - v) * z[2];
+    return std::max(std::min(depth, t.zmax), t.zmin);
+}
+
+TEST(ShadowBuild, NeedsTheOneFormulaOfDepth) {
+    // The negative control: corners decide squares because depth is monotone in x and in y. Interpolated
+    // from a triangle's corners it is not, and the recursion no longer equals the bottom-up construction.
+    int differ = 0;
+    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+        // Slabs above each other, with faces of many texels.
+        Mesh mesh;
+        for (int i = 0; i < 3; ++i) {
+            const Mesh slab = box({6.0 - i, 0.2, 5.0 - i});
+            solids::add(mesh,
+                        solids::shifted(solids::moved(slab, solids::rotation({0.1, 1, 0.02 * seed}, 0.3 * i)),
+                                        {0.1 * i, 1.5 * i, 0}));
+        }
+        const LightView view =
+            orthographic_light_view(bounds_of(mesh), normalize(Vec3d{0.1 * seed, -1, 0.07}), 128);
+        const std::vector<TriangleRecord> records = records_of(mesh, view);
+        CornerTree planes(records, plane_depth), interpolated(records, barycentric_depth);
+        const MultiresTree expected = planes.bottom_up(128);
+        EXPECT_TRUE(same_tree(planes.whole(128), expected));
+        EXPECT_TRUE(same_tree(build_shadow_tree(mesh, view, {}, Exec{}), expected));
+        EXPECT_GT(planes.decided, 50);
+        differ += !same_tree(interpolated.whole(128), interpolated.bottom_up(128));
+    }
+    EXPECT_GE(differ, 2);
 }
 
 }  // namespace

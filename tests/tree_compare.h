@@ -40,8 +40,8 @@ inline MultiresTree bottom_up_tree(const Mesh& mesh, const LightView& view, Rece
     return build_bottom_up(interval_map(mesh, view, params, Exec{}).view());
 }
 
-/// Intervals of the independent oracle: no tiles, no pairs, 128-bit integers. Slow.
-inline Image<DepthInterval> oracle_intervals(const Mesh& mesh, const LightView& view, Receivers receivers) {
+/// The records of a view, one by one: no pairs.
+inline std::vector<TriangleRecord> records_of(const Mesh& mesh, const LightView& view) {
     TriangleSetup setup;
     SetupParams params;
     params.only_casters = true;
@@ -51,6 +51,12 @@ inline Image<DepthInterval> oracle_intervals(const Mesh& mesh, const LightView& 
         for (std::size_t i = block.begin; i < block.begin + block.count; ++i)
             records.push_back(setup.records[i]);
     }
+    return records;
+}
+
+/// Intervals of the independent oracle: no tiles, no pairs, 128-bit integers. Slow.
+inline Image<DepthInterval> oracle_intervals(const Mesh& mesh, const LightView& view, Receivers receivers) {
+    const std::vector<TriangleRecord> records = records_of(mesh, view);
     Image<DepthInterval> map(view.width, view.height);
     for (int y = 0; y < view.height; ++y) {
         for (int x = 0; x < view.width; ++x)
