@@ -13,6 +13,7 @@
 #include "app/scene_schema.h"
 #include "app/scene_shapes.h"
 #include "app/scene_validate.h"
+#include "app/shadow_cache.h"
 #include "core/color.h"
 #include "core/error.h"
 #include "core/image_io.h"
@@ -239,6 +240,9 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     for (const SceneTable* mesh : subtables(document.root, "mesh"))
         add_mesh(b, *mesh);
     set_frame(b.scene, document, scene_frames(document).first);
+    for (const Light& light : b.scene.lights) {
+        if (!light.shadow.cache.empty()) shadow_cache_folder(access, light.shadow.cache);
+    }
     check_memory(estimate_memory(b.scene), b.limits, document.sources[0]);
     return std::move(b.scene);
 }

@@ -194,6 +194,17 @@ TEST(Render, StatisticsAreJsonWithTheStatedMembers) {
     EXPECT_EQ(frame.at("frame").number, 1);
     EXPECT_GT(frame.at("seconds").at("render").number, 0);
     EXPECT_EQ(frame.at("counts").at("triangles").number, 12);
+    const Json& lamp = frame.at("lights").list.at(0);
+    EXPECT_EQ(lamp.at("light").text, "lamp");
+    EXPECT_EQ(lamp.at("method").text, "compressed");
+    EXPECT_EQ(lamp.at("scope").text, "frame");
+    EXPECT_EQ(lamp.at("resolution").number, 256);
+    for (const char* member : {"nodes_leaf", "bytes", "nodes_visited", "texels_rasterized", "list_operations",
+                               "build_s", "lookup_s", "needed"}) {
+        EXPECT_GT(lamp.at(member).number, 0) << member;
+    }
+    for (const char* member : {"nodes_full", "nodes_empty", "certified_cover", "certified_mesh", "encode_s"})
+        EXPECT_GE(lamp.at(member).number, 0) << member;
     ASSERT_EQ(frame.at("files").list.size(), 2u);
     EXPECT_EQ(frame.at("files").list[1].at("file").text, "s.depth.pfm");
     EXPECT_EQ(frame.at("files").list[0].at("bytes").number,
@@ -209,7 +220,14 @@ TEST(Render, MessagesFitTheirListener) {
     EXPECT_NE(lines.find("100 %"), std::string::npos) << lines;
     EXPECT_NE(lines.find("b.png"), std::string::npos) << lines;
     const std::string verbose = run_in(folder, {"render", "s.toml", "-v", "-o", "c.png"}).err;
-    EXPECT_NE(verbose.find("shadow maps"), std::string::npos) << verbose;
+    for (const char* words : {"shadow maps", "light lamp: 256 x 256, what the frame looks up", "nodes_full ",
+                              "texels_rasterized ", "lookups ", "MiB at most so far"}) {
+        EXPECT_NE(verbose.find(words), std::string::npos) << words << " is not in\n" << verbose;
+    }
+    const std::string fitted =
+        run_in(folder, {"render", "s.toml", "-v", "-o", "d.png", "-D", "shadow.lamp.resolution=auto"})
+            .err;
+    EXPECT_NE(fitted.find("(auto: a texel spans 0."), std::string::npos) << fitted;
 }
 
 TEST(Render, WhatIsLikelyAMistakeIsNoted) {
