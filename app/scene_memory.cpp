@@ -31,8 +31,9 @@ std::int64_t picture_bytes(const RenderSettings& render) {
 }
 
 /// Nodes of one view's tree. A model, not a bound: they grow with the length of the outlines on the map, that
-/// is with its side; Scandolo, Bauszat and Eisemann 2016, table 1, have 31 to 32 per texel of the side in all
-/// scenes and resolutions. Nothing where the picture decides the resolution: it is found later.
+/// is with its side; 31 to 32 per texel of the side in the closed city of Scandolo, Bauszat and Eisemann
+/// 2016, more where there are many leaves. Construction stops at the limit. Nothing where the picture decides
+/// the resolution: it is found later.
 std::int64_t expected_nodes(const ShadowSettings& shadow) {
     constexpr std::int64_t nodes_per_side = 32;
     return std::min(nodes_per_side * shadow.resolution,
