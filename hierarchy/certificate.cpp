@@ -84,45 +84,59 @@ bool Judge::covers_first_texel(const Listed& l, const Square& square) const {
     return true;
 }
 
+void Judge::add_to(Group& g, const Listed& l, const Square& square) const {
+    const TriangleRecord& plane = set_.plane(set_.facets[l.facet]);
+    if (g.plane == nullptr) g.plane = &plane;
+    g.one_plane =
+        g.one_plane && (std::tie(g.plane->a, g.plane->b, g.plane->c, g.plane->zmin, g.plane->zmax) ==
+                        std::tie(plane.a, plane.b, plane.c, plane.zmin, plane.zmax));
+    g.low = std::min(g.low, l.low);
+    g.high = std::max(g.high, l.high);
+    g.weight += covers_first_texel(l, square);
+}
+
+Layer Judge::layer_of(const Group& g, std::uint32_t root, const Square& square, const Listed& member) const {
+    Layer layer{set_.facets[member.facet].crossing, g.weight, g.low, g.high, nullptr, root};
+    if (g.one_plane && g.weight == 1) {
+        const std::int32_t last_x = square.x0 + square.side - 1, last_y = square.y0 + square.side - 1;
+        const DepthRange r = plane_range(*g.plane, square.x0, last_x, square.y0, last_y);
+        layer.low = r.low;
+        layer.high = r.high;
+        layer.plane = g.plane;
+    }
+    return layer;
+}
+
 /// Sorts what is listed into layers, which cover every texel equally often, and the uncertain rest. Groups
 /// that cover no texel leave the list.
 void Judge::gather(const Square& square, std::span<Listed> list) {
     layers_.clear();
     uncertain_entries_.clear();
     least_uncertain_ = 2.0f;
+    // A tear is its whole group's; what is in a torn group need not be looked at more closely.
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+        if (list[i].covers_all()) continue;
+        const std::uint32_t root = parent_[i] = root_of(i);
+        groups_[root].torn = groups_[root].torn || groups_[i].torn;
+    }
     for (std::uint32_t i = 0; i < list.size(); ++i) {
         const Listed& l = list[i];
-        Group& g = groups_[parent_[i] = root_of(i)];
-        const TriangleRecord& plane = set_.plane(set_.facets[l.facet]);
-        if (g.plane == nullptr) g.plane = &plane;
-        g.one_plane =
-            g.one_plane && (std::tie(g.plane->a, g.plane->b, g.plane->c, g.plane->zmin, g.plane->zmax) ==
-                            std::tie(plane.a, plane.b, plane.c, plane.zmin, plane.zmax));
-        g.low = std::min(g.low, l.low);
-        g.high = std::max(g.high, l.high);
-        g.torn = g.torn || groups_[i].torn;
-        g.weight += covers_first_texel(l, square);
-    }
-    const std::int32_t last_x = square.x0 + square.side - 1, last_y = square.y0 + square.side - 1;
-    for (std::uint32_t i = 0; i < list.size(); ++i) {
-        const std::uint32_t root = parent_[i];
-        const Group& g = groups_[root];
-        const Crossing crossing = set_.facets[list[i].facet].crossing;
-        if (g.torn) {
-            least_uncertain_ = std::min(least_uncertain_, list[i].low);
-            if (crossing == Crossing::entry) uncertain_entries_.push_back(list[i].low);
-        } else if (g.weight == 0) {
-            list[i].facet = no_facet;
-        } else if (root == i) {
-            Layer layer{crossing, g.weight, g.low, g.high, nullptr, root};
-            if (g.one_plane && g.weight == 1) {
-                const DepthRange r = plane_range(*g.plane, square.x0, last_x, square.y0, last_y);
-                layer.low = r.low;
-                layer.high = r.high;
-                layer.plane = g.plane;
-            }
-            layers_.push_back(layer);
+        const Facet& f = set_.facets[l.facet];
+        if (l.covers_all()) {
+            layers_.push_back({f.crossing, 1, l.low, l.high, &set_.plane(f), i});
+        } else if (Group& g = groups_[parent_[i]]; g.torn) {
+            least_uncertain_ = std::min(least_uncertain_, l.low);
+            if (f.crossing == Crossing::entry) uncertain_entries_.push_back(l.low);
+        } else {
+            add_to(g, l, square);
         }
+    }
+    for (std::uint32_t i = 0; i < list.size(); ++i) {
+        if (list[i].covers_all()) continue;
+        const Group& g = groups_[parent_[i]];
+        if (g.torn) continue;
+        if (parent_[i] == i && g.weight > 0) layers_.push_back(layer_of(g, i, square, list[i]));
+        if (g.weight == 0) list[i].facet = no_facet;
     }
     std::sort(layers_.begin(), layers_.end(), [](const Layer& p, const Layer& q) {
         return std::tie(p.low, p.crossing, p.root) < std::tie(q.low, q.crossing, q.root);

@@ -66,6 +66,8 @@ class Judge {
     std::uint32_t root_of(std::uint32_t place);
     void connect(const Square& square, std::span<const Listed> list);
     void gather(const Square& square, std::span<Listed> list);
+    void add_to(Group& group, const Listed& l, const Square& square) const;
+    Layer layer_of(const Group& group, std::uint32_t root, const Square& square, const Listed& member) const;
     bool covers_first_texel(const Listed& l, const Square& square) const;
     Course course(const Square& square);
     bool put_in_order(std::span<Layer> cluster, const Square& square) const;
