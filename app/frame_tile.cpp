@@ -109,10 +109,14 @@ TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosi
     return tile;
 }
 
-void block_surface(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work) {
+void block_geometry(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work) {
     std::copy_n(work.depth + first_row * frame_tile_side, block_samples, work.surface.depth);
     std::copy_n(work.triangle + first_row * frame_tile_side, block_samples, work.surface.triangle);
     OBSCURA_DISPATCH(isa, surface_block, scene.surface, scene.rays, tile, first_row, work.surface);
+}
+
+void block_surface(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work) {
+    block_geometry(scene, tile, first_row, isa, work);
     if (scene.textured) sample_textures(work.surface, scene.materials, scene.textures);
 }
 

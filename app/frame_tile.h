@@ -59,10 +59,13 @@ struct TileWork {
 TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosition sample, Isa isa,
                          TileWork& work);
 
+/// Stage 2: surfaces of the block of rows from first_row on.
+void block_geometry(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work);
+
 /// Stages 2 and 3: surfaces and texels of the block of rows from first_row on.
 void block_surface(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work);
 
-/// Stages 1 to 3 of tile `index` for one sample of every pixel; calls visit(x, y, at) for each pixel of the
+/// Stages 1 and 2 of tile `index` for one sample of every pixel; calls visit(x, y, at) for each pixel of the
 /// picture whose sample is on a surface: sample `at` of work.surface.
 template <class Visit>
 void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
@@ -72,7 +75,7 @@ void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample,
     const Region inside = scene.bins->inside(index);
     const TileRect tile = tile_visibility(scene, i % columns, i / columns, sample, isa, work);
     for (int first_row = 0; first_row < inside.height; first_row += block_rows) {
-        block_surface(scene, tile, first_row, isa, work);
+        block_geometry(scene, tile, first_row, isa, work);
         for (int y = first_row; y < std::min(first_row + block_rows, inside.height); ++y) {
             for (int x = 0; x < inside.width; ++x) {
                 const int at = (y - first_row) * frame_tile_side + x;

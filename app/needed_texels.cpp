@@ -16,13 +16,19 @@ struct SquareList {
     static constexpr int place_bits = 28;
     static constexpr std::uint64_t place_mask = (std::uint64_t{1} << place_bits) - 1;
     std::vector<std::uint64_t> squares;
+    /// Some that are in the list, so that few come in twice; not needed once it is full.
+    std::vector<std::uint64_t> recent = std::vector<std::uint64_t>(256, ~std::uint64_t{0});
 
     /// Level 0 stands for a block of texels.
     void add(int level, std::int32_t x, std::int32_t y) {
         const auto square = (static_cast<std::uint64_t>(level) << place_bits | static_cast<std::uint64_t>(y))
                                 << place_bits |
                             static_cast<std::uint64_t>(x);
-        if (squares.empty() || squares.back() != square) squares.push_back(square);
+        std::uint64_t& same_slot =
+            recent[(static_cast<std::uint64_t>(x) + static_cast<std::uint64_t>(y) * 17) & 255];
+        if (same_slot == square) return;
+        same_slot = square;
+        squares.push_back(square);
     }
     void tidy() {
         std::sort(squares.begin(), squares.end());
@@ -98,6 +104,12 @@ std::vector<ViewLists> collect_tile(const TileScene& tiles, std::size_t tile,
         for (ViewLists& of_light : lists) {
             for (SquareList& list : of_light)
                 list.tidy();
+        }
+    }
+    for (ViewLists& of_light : lists) {
+        for (SquareList& list : of_light) {
+            list.squares.shrink_to_fit();
+            list.recent = {};
         }
     }
     return lists;

@@ -225,8 +225,7 @@ TEST(Render, MessagesFitTheirListener) {
         EXPECT_NE(verbose.find(words), std::string::npos) << words << " is not in\n" << verbose;
     }
     const std::string fitted =
-        run_in(folder, {"render", "s.toml", "-v", "-o", "d.png", "-D", "shadow.lamp.resolution=auto"})
-            .err;
+        run_in(folder, {"render", "s.toml", "-v", "-o", "d.png", "-D", "shadow.lamp.resolution=auto"}).err;
     EXPECT_NE(fitted.find("(auto: a texel spans 0."), std::string::npos) << fitted;
 }
 
