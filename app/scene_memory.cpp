@@ -6,6 +6,7 @@
 
 #include "app/frame_tile.h"
 #include "app/keyframes.h"
+#include "app/needed_texels.h"
 #include "app/scene_build.h"
 #include "app/scene_shapes.h"
 #include "core/error.h"
@@ -77,6 +78,16 @@ std::int64_t construction_bytes(const Mesh& mesh, const ShadowSettings& shadow) 
            2 * expected_nodes(shadow) * std::int64_t{sizeof(MultiresNode)};
 }
 
+/// Lists of what a frame looks up (scope "frame"): by tile, joined, and while the joined one grows.
+std::int64_t needed_bytes(const RenderSettings& render, const ShadowSettings& shadow) {
+    if (shadow.method != ShadowMethod::compressed || shadow.scope != ShadowScope::frame) return 0;
+    // A kernel reaches into four blocks at most; on coarser levels each tap may be a square of its own.
+    const std::int64_t per_sample =
+        shadow.filter == ShadowFilter::pcf ? 4 : 2 * std::int64_t{shadow.filter_px} * shadow.filter_px;
+    const std::int64_t samples = std::int64_t{render.width} * render.height * render.samples;
+    return std::min(samples * per_sample, most_needed_squares) * 3 * std::int64_t{sizeof(std::uint64_t)};
+}
+
 /// Setup of the camera and of one light at a time, and tables of surfaces.
 std::int64_t work_bytes(const Scene& scene) {
     const Mesh& mesh = scene.mesh;
@@ -85,6 +96,7 @@ std::int64_t work_bytes(const Scene& scene) {
                                                    mesh.positions.size() * sizeof(SurfaceVertex));
     std::int64_t light = 0;
     for (const Light& l : scene.lights) {
+        bytes += needed_bytes(scene.render, l.shadow);
         if (l.shadow.method == ShadowMethod::map) {
             light = std::max(light, view_bytes(mesh, l.shadow.resolution, l.shadow.resolution));
         } else if (l.shadow.method == ShadowMethod::compressed) {
