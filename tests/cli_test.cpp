@@ -72,6 +72,7 @@ std::string plausible_value(const std::string& kind) {
                                                                      {"KIND", "png"},
                                                                      {"LIST", "1"},
                                                                      {"TEXT", "a"},
+                                                                     {"NAME", "accuracy"},
                                                                      {"N", "1"}};
     for (const auto& [name, value] : values) {
         if (name == kind) return value;
