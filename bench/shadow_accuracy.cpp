@@ -114,10 +114,15 @@ std::vector<AccuracyRow> measure_accuracy(const ShadowRecipe& recipe, const Shad
         if (size == plan.picture_size) paint(judge, kinds);
         judge.dense_kinds.emplace_back(size, std::move(kinds));
     }
+    double last_s = 0;
+    std::int64_t last_bytes = 0;
     for (const int size : plan.compressed_sizes) {
+        if (!left_out(plan, recipe.name, size, last_s, last_bytes).empty()) break;
         std::vector<std::uint8_t> kinds;
         const BuiltShadow built = build_compressed(judge.scene, size, judge.exec);
         rows.push_back(judge_map(judge, compressed_name, size, built, kinds));
+        last_s = built.build_s;
+        last_bytes = built.bytes;
         count_steps(judge, built, rows.back());
         compare_with_dense(judge, kinds, rows.back());
     }

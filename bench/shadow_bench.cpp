@@ -27,11 +27,6 @@ std::vector<ShadowRecipe> recipes_of(const BenchOptions& options) {
     return chosen;
 }
 
-bool is_timed(const ShadowBenchPlan& plan, const std::string& scene) {
-    const auto& timed = plan.timed_scenes;
-    return timed.empty() || std::find(timed.begin(), timed.end(), scene) != timed.end();
-}
-
 }  // namespace
 
 ShadowBenchPlan shadow_bench_plan(bool quick) {
@@ -56,6 +51,22 @@ ShadowBenchPlan shadow_bench_plan(bool quick) {
     plan.direction_sizes = {1024, 2048};
     plan.timed_scenes = {"city", "vienna_west", "armadillo"};
     return plan;
+}
+
+bool is_timed(const ShadowBenchPlan& plan, const std::string& scene) {
+    const auto& timed = plan.timed_scenes;
+    return timed.empty() || std::find(timed.begin(), timed.end(), scene) != timed.end();
+}
+
+std::string left_out(const ShadowBenchPlan& plan, const std::string& scene, int size, double last_s,
+                     std::int64_t last_bytes) {
+    constexpr double longest_s = 40;
+    constexpr std::int64_t largest_bytes = 200'000'000;
+    if (size > plan.shallow_size && !is_timed(plan, scene)) return "left out: not one of the timed scenes";
+    if (last_s > longest_s) return fmt::format("left out: the map before took {:.0f} s", last_s);
+    if (last_bytes > largest_bytes)
+        return fmt::format("left out: the map before took {} MB", last_bytes / 1'000'000);
+    return {};
 }
 
 int bench_shadows(const BenchOptions& options, const ShadowBenchParts& parts) {

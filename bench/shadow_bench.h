@@ -19,10 +19,17 @@ struct ShadowBenchPlan {
     std::vector<int> direction_sizes;                            ///< top-down against bottom-up
     int peer_map = 16384;                                        ///< of the peers' dual depths
     std::vector<std::string> timed_scenes;                       ///< empty: all
-    double longest_build_s = 240;                                ///< trees are built up to about this
-    int picture_size = 4096;                                     ///< map whose wrong pixels are painted
+    int shallow_size = 65536;  ///< largest tree of scenes that are not timed
+    int picture_size = 4096;   ///< map whose wrong pixels are painted
 };
 ShadowBenchPlan shadow_bench_plan(bool quick);
+/// Whether lookups are timed on that scene.
+bool is_timed(const ShadowBenchPlan& plan, const std::string& scene);
+
+/// Why the next tree of a scene is left out, empty if it is not: scenes that are not timed stop at
+/// plan.shallow_size, and trees that grow with the area of their map (open scans) where it gets out of hand.
+std::string left_out(const ShadowBenchPlan& plan, const std::string& scene, int size, double last_s,
+                     std::int64_t last_bytes);
 
 /// Which parts of the bench to run.
 struct ShadowBenchParts {

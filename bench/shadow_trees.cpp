@@ -6,7 +6,6 @@
 
 #include "bench/peak_memory.h"
 #include "bench/shadow_bench.h"
-#include "core/error.h"
 #include "core/parallel.h"
 #include "hierarchy/shadow_tree.h"
 #include "raster/shadow_map.h"
@@ -49,22 +48,17 @@ std::vector<SizeRow> measure_trees(const ShadowRecipe& recipe, const ShadowBench
     const Exec exec{best_isa(), options.threads.back()};
     std::vector<SizeRow> rows;
     double last_s = 0;
+    std::int64_t last_bytes = 0;
     for (const int size : plan.tree_sizes) {
         SizeRow row;
         row.scene = recipe.name;
         row.triangles = scene.mesh.triangles.size();
         row.size = size;
-        // Scenes whose trees grow with the map's area are followed as far as is reasonable.
-        if (last_s > plan.longest_build_s / 4) {
-            row.problem = fmt::format("left out: the map before took {:.0f} s", last_s);
-        } else {
-            try {
-                build_and_encode(scene, size, exec, row);
-                last_s = row.build_s;
-            } catch (const LimitError& error) {
-                row.problem = error.what();
-                last_s = plan.longest_build_s;
-            }
+        row.problem = left_out(plan, row.scene, size, last_s, last_bytes);
+        if (row.problem.empty()) {
+            build_and_encode(scene, size, exec, row);
+            last_s = row.build_s;
+            last_bytes = row.words24;
         }
         options.say(
             row.problem.empty()

@@ -13,5 +13,9 @@ Image<Rgb8> lesson_1_edge_functions(const Exec& exec);
 Image<Rgb8> lesson_2_depth(const Exec& exec);
 Image<Rgb8> lesson_3_layers(const Exec& exec);
 Image<Rgb8> lesson_4_intervals(const Exec& exec);
+Image<Rgb8> lesson_5_mode_of_four(const Exec& exec);
+Image<Rgb8> lesson_6_tree(const Exec& exec);
+Image<Rgb8> lesson_7_recursion(const Exec& exec);
+Image<Rgb8> lesson_8_lookups(const Exec& exec);
 
 }  // namespace obscura
