@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "7c9c081cfe7aeee7"};
+constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "7c9c081cfe7aeee7",
+                            "da4e1855356c3fdd", "58e38df2aa3009e6", "bad0f240905ab4ef", "978e552047151592"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
@@ -58,6 +59,7 @@ TEST(Lessons, AreTheSameOnEveryIsaAndThreadCount) {
         SCOPED_TRACE(fmt::format("lesson {}", lesson.number));
         for (const Isa isa : supported_isas()) {
             for (const int threads : {1, 2}) {
+                if (threads == 2 && isa != best_isa()) continue;  // threads share no code with kernels
                 const Image<Rgb8> picture = draw_lesson(lesson.number, Exec{isa, threads});
                 ASSERT_EQ(hash_of(picture), golden[static_cast<std::size_t>(lesson.number - 1)])
                     << isa_name(isa) << ", threads: " << threads;
