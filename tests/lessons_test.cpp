@@ -59,7 +59,7 @@ TEST(Lessons, AreTheSameOnEveryIsaAndThreadCount) {
         SCOPED_TRACE(fmt::format("lesson {}", lesson.number));
         for (const Isa isa : supported_isas()) {
             for (const int threads : {1, 2}) {
-                if (threads == 2 && isa != best_isa()) continue;  // threads share no code with kernels
+                if (threads == 2 && isa != best_isa()) continue;  // one is enough to see threads
                 const Image<Rgb8> picture = draw_lesson(lesson.number, Exec{isa, threads});
                 ASSERT_EQ(hash_of(picture), golden[static_cast<std::size_t>(lesson.number - 1)])
                     << isa_name(isa) << ", threads: " << threads;
