@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "hard_meshes.h"
@@ -9,6 +10,7 @@
 #include "hierarchy/combine.h"
 #include "hierarchy/query.h"
 #include "hierarchy/shadow_tree.h"
+#include "region_oracle.h"
 #include "tree_compare.h"
 
 namespace obscura {
@@ -141,6 +143,63 @@ TEST(NeededNodes, ASquaresValueBringsNothingBelowIt) {
     EXPECT_TRUE(root.nodes.empty());
     EXPECT_EQ(root.root_interval, whole.root_interval);
     EXPECT_LE(tree_of(mesh, view, {{3, 2, 5, false}}, Receivers::any).nodes.size(), 3u * 4);
+}
+
+/// A view of the largest map that sees a piece of the scene: much of it lies off the map, to the guard band
+/// and beyond.
+LightView close_view(hard::Source& source, const Mesh& mesh) {
+    const Vec3d centre = source.point(), reach = Vec3d{1, 1, 1} * std::pow(10.0, source.uniform(-3, 0.8));
+    const Vec3d way = normalize(Vec3d{source.uniform(-1, 1), -1, source.uniform(-1, 1)});
+    if (source.chance(30))
+        return perspective_light_view(centre, way, source.uniform(1, 140), 0.01, 40, 1 << 20);
+    if (source.chance(30)) return orthographic_light_view(bounds_of(mesh), way, 1 << 20);
+    return orthographic_light_view({centre - reach, centre + reach}, way, 1 << 20);
+}
+
+TEST(NeededNodes, HardMeshesOnTheLargestMap) {
+    // 64 x 64 texels here and there against the rasterizer's tiles, some of them against the slow oracle.
+    const std::uint32_t seeds = slow_tests() ? 300 : 60;
+    std::size_t compared = 0, seen = 0;
+    for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+        SCOPED_TRACE(::testing::Message() << "seed " << seed);
+        hard::Source source(seed + 9000);
+        const Mesh mesh = source.mesh();
+        const LightView view = close_view(source, mesh);
+        std::vector<std::pair<int, int>> at;
+        std::vector<Wanted> wanted;
+        for (int i = 0; i < 12; ++i) {
+            const Triangle& t =
+                mesh.triangles[static_cast<std::size_t>(source.pick(1 << 20)) % mesh.triangles.size()];
+            const Vec3d p = to_double(mesh.positions[t.v[0]]), q = to_double(mesh.positions[t.v[1]]);
+            const Vec3d m = to_map_space(view, p + (q - p) * source.uniform(0, 1));
+            const auto place = [&](double v) {
+                const bool on_map = v > 0 && v < view.width && source.chance(80);
+                return on_map ? std::min(static_cast<int>(v) / 64, view.width / 64 - 1)
+                              : source.pick(view.width / 64);
+            };
+            at.emplace_back(place(m.x), place(m.y));
+            wanted.push_back({at.back().first, at.back().second, 6, true});
+        }
+        const Receivers receivers = source.chance(50) ? Receivers::any : Receivers::static_only;
+        const ShadowTree tree = encode_tree(tree_of(mesh, view, wanted, receivers), view);
+        const std::vector<TriangleRecord> records = records_of(mesh, view);
+        RegionOracle oracle(mesh, view, receivers);
+        for (const auto& [column, row] : at) {
+            const std::vector<DepthInterval>& intervals = oracle.intervals(64 * column, 64 * row);
+            for (int i = 0; i < 64 * 64; ++i) {
+                const int x = 64 * column + i % 64, y = 64 * row + i / 64;
+                const DepthInterval interval = intervals[static_cast<std::size_t>(i)];
+                ASSERT_TRUE(contains(interval, looked_up(tree, x, y, 0))) << x << "," << y;
+                ++compared;
+                seen += interval != DepthInterval{};
+                if (i % 509 != 0) continue;
+                ASSERT_EQ(interval, oracle::interval(oracle::hits_at(records, x, y),
+                                                     receivers == Receivers::static_only))
+                    << x << "," << y;
+            }
+        }
+    }
+    EXPECT_GT(seen, compared / 4);
 }
 
 TEST(NeededNodes, SameBitsForEveryExec) {
