@@ -147,7 +147,7 @@ TEST(ShadowBuild, EqualsBottomUpOverTheOracle) {
 }
 
 TEST(ShadowBuild, EqualsBottomUpOnHardMeshes) {
-    const std::uint32_t seeds = slow_tests() ? 2000 : 160;
+    const std::uint32_t seeds = slow_tests() ? 1000 : 160;
     for (std::uint32_t seed = 1000; seed < 1000 + seeds; ++seed) {
         hard::Source source(seed);
         const Mesh mesh = source.mesh();
