@@ -20,6 +20,8 @@ constexpr bool is_inner(std::uint32_t kind) {
 void collect(const MultiresTree& tree, const MultiresNode& node, int height, TreeShape& shape) {
     CHECK(height > 0 || node.kinds == 0, "texels have no children");
     shape.kinds[height].push_back(static_cast<std::uint8_t>(node.kinds));
+    // Only roots have no children here; what stands in first_child then means nothing.
+    if (node.kinds == 0) return;
     const MultiresNode* child = tree.nodes.data() + node.first_child();
     for (int i = 0; i < 4; ++i) {
         const std::uint32_t kind = kind_of(node.kinds, i);

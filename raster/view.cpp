@@ -43,6 +43,23 @@ View perspective_view(const Frame& frame, double texels_per_tangent, int width, 
     return view;
 }
 
+/// Orthographic map of resolution x resolution texels around frame.eye; depths within `depth_reach` metres of
+/// it, before and behind, lie in [0, 1].
+LightView parallel_view(const Frame& frame, double x_texels_per_m, double y_texels_per_m, double depth_reach,
+                        int resolution) {
+    LightView view;
+    view.width = view.height = resolution;
+    Vec4d x = frame.row(frame.basis.right, x_texels_per_m), y = frame.row(frame.basis.up, -y_texels_per_m);
+    Vec4d z = frame.row(frame.basis.forward, 0.5 / depth_reach);
+    x.w += 0.5 * resolution;
+    y.w += 0.5 * resolution;
+    z.w += 0.5;
+    set_row(view.to_map, 0, x);
+    set_row(view.to_map, 1, y);
+    set_row(view.to_map, 2, z);
+    return view;
+}
+
 }  // namespace
 
 Bounds bounds_of(const Mesh& mesh) {
@@ -80,18 +97,7 @@ LightView orthographic_light_view(const Bounds& bounds, Vec3d direction, int res
     // One texel of margin on every side, so that what lies on the box's border is sampled.
     const double texels_per_m = (resolution - 2) / (2.0 * side_reach);
 
-    LightView view;
-    view.width = view.height = resolution;
-    const Frame frame{basis, centre};
-    Vec4d x = frame.row(basis.right, texels_per_m), y = frame.row(basis.up, -texels_per_m);
-    Vec4d z = frame.row(basis.forward, 0.5 / depth_reach);
-    x.w += 0.5 * resolution;
-    y.w += 0.5 * resolution;
-    z.w += 0.5;
-    set_row(view.to_map, 0, x);
-    set_row(view.to_map, 1, y);
-    set_row(view.to_map, 2, z);
-    return view;
+    return parallel_view({basis, centre}, texels_per_m, texels_per_m, depth_reach, resolution);
 }
 
 Bounds caster_box(const Mesh& mesh, Vec3d direction) {
@@ -123,19 +129,9 @@ LightView fitted_light_view(const Bounds& box, Vec3d direction, int resolution) 
     const double reach_x = std::max(half.x, least_reach), reach_y = std::max(half.y, least_reach);
     const double depth_reach = std::max(half.z * 1.0005, 1e-6);
 
-    LightView view;
-    view.width = view.height = resolution;
-    const Frame frame{basis, basis.right * centre.x + basis.up * centre.y + basis.forward * centre.z};
-    Vec4d x = frame.row(basis.right, (resolution - 2) / (2.0 * reach_x));
-    Vec4d y = frame.row(basis.up, -(resolution - 2) / (2.0 * reach_y));
-    Vec4d z = frame.row(basis.forward, 0.5 / depth_reach);
-    x.w += 0.5 * resolution;
-    y.w += 0.5 * resolution;
-    z.w += 0.5;
-    set_row(view.to_map, 0, x);
-    set_row(view.to_map, 1, y);
-    set_row(view.to_map, 2, z);
-    return view;
+    const Vec3d middle = basis.right * centre.x + basis.up * centre.y + basis.forward * centre.z;
+    return parallel_view({basis, middle}, (resolution - 2) / (2.0 * reach_x),
+                         (resolution - 2) / (2.0 * reach_y), depth_reach, resolution);
 }
 
 double margin_factor(int resolution, int margin_texels) {

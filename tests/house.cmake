@@ -38,6 +38,6 @@ house_test(install ${here}/install_test.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR} 
 house_test(other_builds ${here}/determinism_builds.sh $<TARGET_FILE:obscura>)
 set_tests_properties(House.other_builds PROPERTIES TIMEOUT 1800 RUN_SERIAL ON)
 
-# clang-tidy over core, raster and filters. Minutes.
+# clang-tidy over core, raster, hierarchy and filters. Minutes.
 house_test(tidy ${here}/tidy_check.sh ${CMAKE_BINARY_DIR})
 set_tests_properties(House.tidy PROPERTIES TIMEOUT 1800)

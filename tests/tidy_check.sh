@@ -1,5 +1,5 @@
 #!/bin/sh
-# clang-tidy, with the rules of .clang-tidy, over the rooms whose code others build on: core, raster, filters.
+# clang-tidy, with the rules of .clang-tidy, over the rooms whose code others build on: core, raster, hierarchy, filters.
 # Usage: tidy_check.sh BUILD_DIR. It takes minutes, so it runs in CI and with OBSCURA_SLOW_TESTS=1; otherwise,
 # and without clang-tidy 14, it exits 77, which counts as skipped.
 set -eu
@@ -15,5 +15,5 @@ build=$(realpath "$1")
 cd "$(dirname "$0")/.."
 [ -f "$build/compile_commands.json" ] || { echo "no compile_commands.json in $build"; exit 1; }
 # Not kernels, which are built once per instruction set; not image_io.cpp, which holds all of stb.
-ls core/*.cpp raster/*.cpp filters/*.cpp | grep -vE '_kernel\.cpp$|image_io\.cpp$' |
+ls core/*.cpp raster/*.cpp hierarchy/*.cpp filters/*.cpp | grep -vE '_kernel\.cpp$|image_io\.cpp$' |
     xargs -n 4 -P "$(nproc)" clang-tidy -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option 2> /dev/null
