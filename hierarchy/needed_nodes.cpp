@@ -1,14 +1,15 @@
 #include "hierarchy/needed_nodes.h"
 
 #include <algorithm>
-#include <numeric>
-#include <utility>
+
+#include "core/radix_sort.h"
 
 namespace obscura {
 namespace {
 
-// A code holds the Morton code of the square's first texel (40 bits), then its height, then what is wanted:
-// its value (0) or all its texels (1). Sorted codes put the contents of any square side by side.
+// A code holds the Morton code of the square's first texel (40 bits), then its height (5 bits), then what is
+// wanted: its value (0) or all its texels (1). Sorted codes put the contents of any square side by side.
+constexpr int code_bits = 46;
 std::uint64_t code_of(std::uint64_t morton, int height, bool texels) {
     return (morton << (2 * height)) << 6 | static_cast<std::uint64_t>(height) << 1 | (texels ? 1u : 0u);
 }
@@ -28,41 +29,26 @@ std::uint64_t spread(std::uint32_t v) {
     return (b | b << 1) & 0x5555555555555555ull;
 }
 
-/// Least significant digits first: millions of codes take a tenth of the time of comparisons.
-void sort_codes(std::vector<std::uint64_t>& codes) {
-    constexpr int digit_bits = 12, code_bits = 48;
-    constexpr std::size_t digits = std::size_t{1} << digit_bits, few = 4 * digits;
-    if (codes.size() < few) {
-        std::sort(codes.begin(), codes.end());
-        return;
-    }
-    std::vector<std::uint64_t> from = std::move(codes), to(from.size());
-    std::vector<std::size_t> place(digits);
-    for (int shift = 0; shift < code_bits; shift += digit_bits) {
-        const auto digit = [&](std::uint64_t code) { return code >> shift & (digits - 1); };
-        std::fill(place.begin(), place.end(), 0);
-        for (const std::uint64_t code : from)
-            ++place[digit(code)];
-        std::exclusive_scan(place.begin(), place.end(), place.begin(), std::size_t{0});
-        for (const std::uint64_t code : from)
-            to[place[digit(code)]++] = code;
-        std::swap(from, to);
-    }
-    codes = std::move(from);
-}
-
 }  // namespace
 
 std::uint64_t morton_code(std::uint32_t x, std::uint32_t y) {
     return spread(x) | spread(y) << 1;
 }
 
+void NeededNodes::add(std::uint64_t morton, int level) {
+    codes_.push_back(code_of(morton, level, level == 0));
+}
+
+void NeededNodes::add_texels(std::uint64_t morton, int level) {
+    codes_.push_back(code_of(morton, level, true));
+}
+
 void NeededNodes::add(std::uint32_t x, std::uint32_t y, int level) {
-    codes_.push_back(code_of(morton_code(x, y), level, level == 0));
+    add(morton_code(x, y), level);
 }
 
 void NeededNodes::add_texels(std::uint32_t x, std::uint32_t y, int level) {
-    codes_.push_back(code_of(morton_code(x, y), level, true));
+    add_texels(morton_code(x, y), level);
 }
 
 void NeededNodes::add(const NeededNodes& other) {
@@ -70,7 +56,7 @@ void NeededNodes::add(const NeededNodes& other) {
 }
 
 void NeededNodes::finish() {
-    sort_codes(codes_);
+    if (!std::is_sorted(codes_.begin(), codes_.end())) sort_bits(codes_, 0, code_bits);
     codes_.erase(std::unique(codes_.begin(), codes_.end()), codes_.end());
 }
 

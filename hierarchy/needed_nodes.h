@@ -15,6 +15,9 @@ class NeededNodes {
     void add(std::uint32_t x, std::uint32_t y, int level);
     /// All texels of the 2^level square (x, y).
     void add_texels(std::uint32_t x, std::uint32_t y, int level);
+    /// The same for morton_code(x, y).
+    void add(std::uint64_t morton, int level);
+    void add_texels(std::uint64_t morton, int level);
     /// Takes over all of the other's.
     void add(const NeededNodes& other);
     /// Sorts, drops repetitions; call before building.
