@@ -130,18 +130,28 @@ OBSCURA_INLINE F32 footprint_of(const CameraRays& rays, const PcfView& view, con
     return sqrt(to_f32(max(right, down)));
 }
 
-/// Visibility of samples at .. at + 15; lookup(view, receivers, active) answers for the active lanes of one
-/// view, and may return anything in the others.
-template <class Lookup>
-OBSCURA_INLINE F32 group_visibility(const SurfaceBlock& s, const PcfLight& light, int at, Lookup&& lookup) {
+/// The two levels around tap_texels; blend 0: the finer alone.
+struct Levels16 {
+    I32 fine;
+    F32 blend;
+};
+OBSCURA_INLINE Levels16 levels_of(const Receivers16& r) {
+    const I32 tap_texels = bitcast_i32(r.tap_texels);
+    return {shift_right<23>(tap_texels) - splat(std::int32_t{127}),
+            to_f32(tap_texels & splat(std::int32_t{0x7fffff})) * splat(0x1p-23f)};
+}
+
+/// Calls visit(view, receivers, active) for each view that the active lanes among samples at .. at + 15 ask.
+/// Lanes that face away from the light ask none.
+template <class Visit>
+OBSCURA_INLINE void visit_receivers(const SurfaceBlock& s, const PcfLight& light, int at, Visit&& visit) {
     const std::uint32_t covered = s.covered[at / 16];
-    F32 visibility = splat(0.0f);
-    if (covered == 0) return visibility;
+    if (covered == 0) return;
     const Vec3x16 p = load3(s.px + at, s.py + at, s.pz + at), g = load3(s.gx + at, s.gy + at, s.gz + at);
     const Vec3x16 l = towards(light, p);
     const F32 cosine = dot(g, l);
     const Mask asking = mask_of(covered) & (less(splat(0.0f), cosine) | mask_of(s.thin[at / 16]));
-    if (none(asking)) return visibility;
+    if (none(asking)) return;
 
     const Moved16 moved = move(light, p, negated(less(cosine, splat(0.0f)), g), l, s.open[at / 16]);
     const I32 face =
@@ -156,9 +166,19 @@ OBSCURA_INLINE F32 group_visibility(const SurfaceBlock& s, const PcfLight& light
             const F32 squares = splat(static_cast<float>(light.side == 1 ? 1 : light.side - 1));
             r.tap_texels = min(max(footprint / squares, splat(1.0f)), splat(static_cast<float>(view.size)));
         }
-        const F32 seen = select(r.before_near, splat(1.0f), lookup(f, r, active));
-        visibility = select(active, seen, visibility);
+        visit(f, r, active);
     }
+}
+
+/// Visibility of samples at .. at + 15; lookup(view, receivers, active) answers for the active lanes of one
+/// view, and may return anything in the others.
+template <class Lookup>
+OBSCURA_INLINE F32 group_visibility(const SurfaceBlock& s, const PcfLight& light, int at, Lookup&& lookup) {
+    F32 visibility = splat(0.0f);
+    visit_receivers(s, light, at, [&](std::int32_t view, const Receivers16& r, const Mask& active) {
+        const F32 seen = select(r.before_near, splat(1.0f), lookup(view, r, active));
+        visibility = select(active, seen, visibility);
+    });
     return visibility;
 }
 

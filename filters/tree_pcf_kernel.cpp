@@ -298,9 +298,7 @@ F32 mean_at_level(const TreeCode& tree, const PcfLight& light, const Receivers16
 template <class Units>
 F32 mean_between_levels(const TreeCode& tree, const PcfLight& light, const Receivers16& r, const Mask& active,
                         TreePath* path) {
-    const I32 tap_texels = bitcast_i32(r.tap_texels);
-    const I32 fine = shift_right<23>(tap_texels) - splat(std::int32_t{127});
-    const F32 blend = to_f32(tap_texels & splat(std::int32_t{0x7fffff})) * splat(0x1p-23f);
+    const auto [fine, blend] = levels_of(r);
     alignas(64) std::int32_t fine_of[16];
     store(fine_of, fine);
     F32 visibility = splat(0.0f);
