@@ -120,6 +120,14 @@ void block_surface(const TileScene& scene, const TileRect& tile, int first_row, 
     if (scene.textured) sample_textures(work.surface, scene.materials, scene.textures);
 }
 
+void uncover_outside(int width, int rows, SurfaceBlock& surface) {
+    if (width >= frame_tile_side && rows >= block_rows) return;
+    for (int at = 0; at < block_samples; ++at) {
+        if (at % frame_tile_side < width && at / frame_tile_side < rows) continue;
+        surface.covered[at / 16] &= ~(1u << (at & 15));
+    }
+}
+
 void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work) {
     OBSCURA_DISPATCH(isa, shade_begin, work.surface, scene.materials.data(), scene.sky, scene.rays,
                      work.shade);

@@ -2,7 +2,7 @@
 // One 64 x 64 tile of a frame, stage by stage: visibility, surface, textures, shadow lookups, shading,
 // resolve. Between the stages lie plain buffers, so that a test, a lesson or a trace can stop there.
 
-#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -65,26 +65,38 @@ void block_geometry(const TileScene& scene, const TileRect& tile, int first_row,
 /// Stages 2 and 3: surfaces and texels of the block of rows from first_row on.
 void block_surface(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work);
 
-/// Stages 1 and 2 of tile `index` for one sample of every pixel; calls visit(x, y, at) for each pixel of the
-/// picture whose sample is on a surface: sample `at` of work.surface.
+/// Samples of the block beyond its first `width` columns and `rows` rows count as not covered.
+void uncover_outside(int width, int rows, SurfaceBlock& surface);
+
+/// Stages 1 and 2 of tile `index` for one sample of every pixel; calls visit(tile, first_row) with the
+/// surfaces of each block of rows in work.surface. Samples outside of the picture count as not covered.
 template <class Visit>
-void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
-               Visit&& visit) {
+void walk_blocks(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
+                 Visit&& visit) {
     const int columns = scene.bins->columns;
     const auto i = static_cast<int>(index);
     const Region inside = scene.bins->inside(index);
     const TileRect tile = tile_visibility(scene, i % columns, i / columns, sample, isa, work);
     for (int first_row = 0; first_row < inside.height; first_row += block_rows) {
         block_geometry(scene, tile, first_row, isa, work);
-        for (int y = first_row; y < std::min(first_row + block_rows, inside.height); ++y) {
-            for (int x = 0; x < inside.width; ++x) {
-                const int at = (y - first_row) * frame_tile_side + x;
-                if ((work.surface.covered[at / 16] >> (at & 15) & 1u) != 0) {
-                    visit(tile.x0 + x, tile.y0 + y, at);
-                }
+        uncover_outside(inside.width, inside.height - first_row, work.surface);
+        visit(tile, first_row);
+    }
+}
+
+/// The same, sample by sample: calls visit(x, y, at) for each pixel of the picture whose sample is on a
+/// surface: sample `at` of work.surface.
+template <class Visit>
+void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
+               Visit&& visit) {
+    walk_blocks(scene, index, sample, isa, work, [&](const TileRect& tile, int first_row) {
+        for (int group = 0; group < block_groups; ++group) {
+            for (std::uint32_t left = work.surface.covered[group]; left != 0; left &= left - 1) {
+                const int at = group * 16 + std::countr_zero(left);
+                visit(tile.x0 + at % frame_tile_side, tile.y0 + first_row + at / frame_tile_side, at);
             }
         }
-    }
+    });
 }
 
 /// Stages 4 and 5: shadow lookups and shading. `shadow`: also sum visibilities into work.shadow_sum.

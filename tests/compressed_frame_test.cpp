@@ -4,51 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
 #include "app/frame_shadows.h"
 #include "app/needed_texels.h"
 #include "app/shadow_resolution.h"
 #include "core/error.h"
 #include "filters/shadow_lookup.h"
-#include "frame_scenes.h"
+#include "frame_stage.h"
 #include "raster/interval_map.h"
 
 namespace obscura {
 namespace {
 
 using namespace frame_scenes;
-
-/// Solids and sheets under one light of the kind, its shadow compressed.
-Scene staged(LightKind kind, bool orthographic) {
-    Scene scene = everything(1, orthographic);
-    scene.lights = {kind == LightKind::directional ? scene.lights[0]
-                    : kind == LightKind::point     ? scene.lights[1]
-                                                   : scene.lights[2]};
-    scene.lights[0].shadow = ShadowSettings{};
-    return scene;
-}
-
-/// A picture's tiles, ready for shadows.
-struct Stage {
-    explicit Stage(const Scene& s) : scene(s) {
-        FrameStats stats;
-        prepare_scene(scene, {}, cache, stats);
-        tiles = prepare_tiles(scene, {}, cache);
-    }
-    /// visit(x, y, at, block) for every pixel that sees a surface.
-    template <class Visit>
-    void walk(Visit&& visit) const {
-        const auto work = std::make_unique<TileWork>();
-        for (std::size_t i = 0; i < tiles.bins->tiles(); ++i) {
-            walk_tile(tiles, i, tiles.pattern[0], Isa::ref, *work,
-                      [&](int x, int y, int at) { visit(x, y, at, work->surface); });
-        }
-    }
-    const Scene& scene;
-    FrameCache cache;
-    TileScene tiles;
-};
 
 Vec3d ray_origin(const CameraRays& r, double x, double y) {
     const auto at = [&](int k) { return r.origin0[k] + x * r.origin_x[k] + y * r.origin_y[k] + r.eye[k]; };
