@@ -47,7 +47,8 @@ const TableSpec& shadow_table() {
             choice_key(
                 "filter", {"pcf", "hierarchical"},
                 "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
-                "keeps distant shadows free of aliasing. \"pcf\" when not given."),
+                "keeps distant shadows still when the camera moves; what is thinner than a square, as the "
+                "bars of a distant fence, then casts no shadow. \"pcf\" when not given."),
             number_key(
                 "max_magnification",
                 "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "
@@ -55,8 +56,8 @@ const TableSpec& shadow_table() {
                 .in({0.01, 100}),
             choice_key(
                 "layout", {"words24", "words16", "bytes16"},
-                "Compressed: how nodes are written. words16 and bytes16 are smaller, bytes16 the most and "
-                "slower to look up. \"words24\" when not given."),
+                "Compressed: how nodes are written. bytes16 is about a tenth smaller and slower to look up, "
+                "words16 about as large as words24. \"words24\" when not given."),
             integer_key(
                 "top_levels",
                 "Compressed: how many of the first levels are kept as a table, which saves lookups that "
