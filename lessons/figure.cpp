@@ -11,8 +11,9 @@
 namespace obscura {
 namespace {
 
+/// Rounds by truncation: what is converted is never negative.
 std::uint8_t mix_code(std::uint8_t a, std::uint8_t b, double share) {
-    return static_cast<std::uint8_t>(std::floor(a + (b - a) * share + 0.5));
+    return static_cast<std::uint8_t>(a + (b - a) * share + 0.5);
 }
 
 double distance_squared(Vec2d p, Vec2d a, Vec2d b) {
@@ -103,6 +104,7 @@ double pen_for(const Lettering& style) {
 
 Rgb8 mix(Rgb8 a, Rgb8 b, double share) {
     const double t = std::clamp(share, 0.0, 1.0);
+    if (t == 1.0) return b;
     return {mix_code(a.r, b.r, t), mix_code(a.g, b.g, t), mix_code(a.b, b.b, t)};
 }
 

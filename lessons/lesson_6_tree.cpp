@@ -27,31 +27,37 @@ namespace {
 constexpr int map_texels = 256;
 constexpr Rgb8 near_grey{238, 238, 235}, far_grey{110, 112, 118};
 
-// Step 1: what a lookup that stops at a level sees.
-Image<float> map_at_level(const ShadowTree& tree, int level) {
-    Image<float> map(map_texels, map_texels);
+// Step 1: what a lookup that stops at a level sees, in greys.
+Image<Rgb8> map_at_level(const ShadowTree& tree, int level, const std::array<float, 2>& range) {
+    Image<Rgb8> map(map_texels, map_texels);
     for (int y = 0; y < map_texels; ++y) {
-        for (int x = 0; x < map_texels; ++x)
-            map(x, y) = tree_value_at_level(tree.code, static_cast<std::uint32_t>(x),
-                                            static_cast<std::uint32_t>(y), level);
+        for (int x = 0; x < map_texels; ++x) {
+            // Every texel of a square sees the same.
+            const int in_square = (1 << level) - 1, x0 = x & ~in_square, y0 = y & ~in_square;
+            if (x != x0 || y != y0) {
+                map(x, y) = map(x0, y0);
+                continue;
+            }
+            const float depth = tree_value_at_level(tree.code, static_cast<std::uint32_t>(x),
+                                                    static_cast<std::uint32_t>(y), level);
+            const double t = static_cast<double>((depth - range[0]) / (range[1] - range[0]));
+            map(x, y) = depth >= 1.0f ? ink::paper : mix(near_grey, far_grey, std::clamp(t, 0.0, 1.0));
+        }
     }
     return map;
 }
 
-// Step 2: that map in greys, with the nodes of the level as frames.
+// Step 2: that map, with the nodes of the level as frames.
 void draw_level(Figure& f, const ShadowTree& tree, const std::vector<TreeSquare>& squares, int level,
                 const Cells& cells, const std::array<float, 2>& range) {
-    const Image<float> map = map_at_level(tree, level);
+    const Image<Rgb8> map = map_at_level(tree, level, range);
     // Painted four times as fine, then averaged: 256 texels on 344 pixels leave no pattern.
     constexpr int shrink = 4;
     const int side_px = static_cast<int>(cells.box().w);
     Image<Rgb8> fine(side_px * shrink, side_px * shrink);
     for (int y = 0; y < fine.height; ++y) {
-        for (int x = 0; x < fine.width; ++x) {
-            const float depth = map(x * map_texels / fine.width, y * map_texels / fine.height);
-            const double t = static_cast<double>((depth - range[0]) / (range[1] - range[0]));
-            fine(x, y) = depth >= 1.0f ? ink::paper : mix(near_grey, far_grey, std::clamp(t, 0.0, 1.0));
-        }
+        for (int x = 0; x < fine.width; ++x)
+            fine(x, y) = map(x * map_texels / fine.width, y * map_texels / fine.height);
     }
     f.image(static_cast<int>(cells.origin.x), static_cast<int>(cells.origin.y), fine, shrink);
     std::array<int, 4> counts{};

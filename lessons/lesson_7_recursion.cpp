@@ -12,17 +12,16 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/topology.h"
 #include "hierarchy/build.h"
 #include "lessons/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/tree_scene.h"
 #include "raster/interval_map.h"
-#include "scenes/build.h"
-#include "scenes/shapes.h"
 
 namespace obscura {
 namespace {
+
+constexpr int drawn_texels = 1024;
 
 using Fate = decltype(BuildSquare::fate);
 
@@ -42,12 +41,16 @@ Rgb8 fate_color(Fate fate) {
 }
 
 // Step 1: the construction tells what became of every square it visited.
-std::vector<BuildSquare> trace_of(const Mesh& mesh, int texels, const Exec& exec, BuildStats& stats) {
-    std::vector<BuildSquare> trace;
+struct Traced {
+    std::vector<BuildSquare> squares;
+    BuildStats stats;
+};
+Traced trace_of(const Mesh& mesh, int texels, const Exec& exec) {
+    Traced traced;
     BuildParams params;
-    params.trace = &trace;
-    build_shadow_tree(mesh, lesson_view(mesh, texels), params, exec, &stats);
-    return trace;
+    params.trace = &traced.squares;
+    build_shadow_tree(mesh, lesson_view(mesh, texels), params, exec, &traced.stats);
+    return traced;
 }
 
 // What it builds must be what lesson 5 builds from all texels.
@@ -63,12 +66,10 @@ void check_equal(const Mesh& mesh, int texels, const Exec& exec) {
 }
 
 // Step 2: the squares where the recursion stopped.
-void draw_squares(Figure& f, const Mesh& mesh, const char* name, int texels, const Box& box,
-                  const Exec& exec) {
-    BuildStats stats;
-    const std::vector<BuildSquare> trace = trace_of(mesh, texels, exec, stats);
-    const double scale = box.w / texels;
-    for (const BuildSquare& s : trace) {
+void draw_squares(Figure& f, const Traced& traced, const char* name, const Box& box) {
+    const BuildStats& stats = traced.stats;
+    const double scale = box.w / drawn_texels;
+    for (const BuildSquare& s : traced.squares) {
         if (s.fate == BuildSquare::divided) continue;
         const Box square{box.x + s.x0 * scale, box.y + s.y0 * scale, s.side * scale, s.side * scale};
         f.fill(square, fate_color(s.fate));
@@ -76,22 +77,21 @@ void draw_squares(Figure& f, const Mesh& mesh, const char* name, int texels, con
     }
     f.frame(box, {ink::soft, 1});
     f.text({box.x, box.y - 12}, name, lettering::head);
-    const double all = static_cast<double>(texels) * texels;
+    constexpr double all = static_cast<double>(drawn_texels) * drawn_texels;
     f.paragraph(
         {box.x, box.y + box.h + 26},
         fmt::format(
             "{} squares visited, {} certain by a plane, {} by a mesh;\n{:.1f} % of {} x {} texels rasterized",
             stats.nodes_visited, stats.certified_cover, stats.certified_mesh,
-            100 * static_cast<double>(stats.texels_rasterized) / all, texels, texels));
+            100 * static_cast<double>(stats.texels_rasterized) / all, drawn_texels, drawn_texels));
 }
 
 // Step 3: the work for larger and larger maps.
-void draw_work(Figure& f, const Mesh& mesh, const char* name, const Box& box, const Exec& exec) {
-    f.text({box.x, box.y - 12}, name, lettering::bold);
+void draw_work(Figure& f, const Mesh& mesh, const Traced& traced, const Box& box, const Exec& exec) {
     double y = box.y;
     for (int n = 128; n <= 2048; n *= 2) {
-        BuildStats stats;
-        build_shadow_tree(mesh, lesson_view(mesh, n), {}, exec, &stats);
+        BuildStats stats = traced.stats;
+        if (n != drawn_texels) build_shadow_tree(mesh, lesson_view(mesh, n), {}, exec, &stats);
         const double share = static_cast<double>(stats.texels_rasterized) / (static_cast<double>(n) * n);
         f.text({box.x + 52, y + 16}, fmt::format("{}", n), lettering::right);
         f.fill({box.x + 62, y + 4, box.w - 62, 14}, ink::panel);
@@ -102,15 +102,6 @@ void draw_work(Figure& f, const Mesh& mesh, const char* name, const Box& box, co
     }
 }
 
-/// A ball and a ring over a slab: surfaces of many small triangles.
-Mesh smooth_solids() {
-    Mesh mesh = box({-4, -0.6, -4}, {4, 0, 4});
-    add_part(mesh, sphere(1.7, 160, 80), translation(-1.1, 2.0, -0.7));
-    add_part(mesh, torus(1.3, 0.5, 160, 64), translation(1.9, 1.6, 1.5) * rotation_x(50));
-    analyse_topology(mesh);
-    return mesh;
-}
-
 }  // namespace
 
 Image<Rgb8> lesson_7_recursion(const Exec& exec) {
@@ -118,15 +109,18 @@ Image<Rgb8> lesson_7_recursion(const Exec& exec) {
     f.heading(7, "Straight from triangles",
               "Go down with lists of triangles; stop where one interval is certain. Equal, bit for bit, to "
               "rasterizing everything.");
-    const Mesh town = lesson_town(), solids = smooth_solids();
+    const Mesh town = lesson_town(), solids = lesson_solids();
     check_equal(town, 256, exec);
     check_equal(solids, 256, exec);
-    draw_squares(f, town, "A town: large faces", 1024, {40, 170, 560, 560}, exec);
-    draw_squares(f, solids, "Smooth solids: triangles smaller than squares", 1024, {630, 170, 560, 560},
-                 exec);
+    const Traced of_town = trace_of(town, drawn_texels, exec),
+                 of_solids = trace_of(solids, drawn_texels, exec);
+    draw_squares(f, of_town, "A town: large faces", {40, 170, 560, 560});
+    draw_squares(f, of_solids, "Smooth solids: triangles smaller than squares", {630, 170, 560, 560});
     f.text({1220, 158}, "Texels rasterized, of all", lettering::head);
-    draw_work(f, town, "town, map of N x N", {1220, 200, 300, 140}, exec);
-    draw_work(f, solids, "smooth solids", {1220, 378, 300, 140}, exec);
+    f.text({1220, 188}, "town, map of N x N", lettering::bold);
+    draw_work(f, town, of_town, {1220, 200, 300, 140}, exec);
+    f.text({1220, 366}, "smooth solids", lettering::bold);
+    draw_work(f, solids, of_solids, {1220, 378, 300, 140}, exec);
     f.text({1220, 552}, "When is a square certain?", lettering::head);
     f.paragraph(
         {1220, 580},

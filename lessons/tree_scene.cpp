@@ -6,7 +6,9 @@
 #include "core/topology.h"
 #include "lessons/figure.h"
 #include "raster/view.h"
+#include "scenes/build.h"
 #include "scenes/city.h"
+#include "scenes/shapes.h"
 
 namespace obscura {
 namespace {
@@ -30,6 +32,14 @@ void add_squares(const MultiresTree& tree, const MultiresNode& node, const TreeS
 
 Mesh lesson_town() {
     Mesh mesh = city({4000, 0, 5}).mesh;
+    analyse_topology(mesh);
+    return mesh;
+}
+
+Mesh lesson_solids() {
+    Mesh mesh = box({-4, -0.6, -4}, {4, 0, 4});
+    add_part(mesh, sphere(1.7, 160, 80), translation(-1.1, 2.0, -0.7));
+    add_part(mesh, torus(1.3, 0.5, 160, 64), translation(1.9, 1.6, 1.5) * rotation_x(50));
     analyse_topology(mesh);
     return mesh;
 }

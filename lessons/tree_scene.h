@@ -17,6 +17,8 @@ Image<DepthInterval> small_map();
 
 /// A town of the generator, with its topology.
 Mesh lesson_town();
+/// A ball and a ring over a slab: surfaces of many small triangles.
+Mesh lesson_solids();
 /// The same sun for every lesson.
 Vec3d lesson_sun();
 /// The sun's view of a mesh, N x N texels.
