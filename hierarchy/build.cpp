@@ -6,6 +6,8 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -76,7 +78,7 @@ class Forest {
                 worker_ = std::move(f.idle_.back());
                 f.idle_.pop_back();
             } else {
-                worker_ = std::make_unique<SquareBuilder>(f.set_, f.params_, f.exec_.isa);
+                worker_ = std::make_unique<SquareBuilder>(f.set_, f.params_, f.exec_.isa, f.cancel_);
             }
         }
         ~Lease() {

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-
 #include "raster/layer_tile.h"
 
 namespace obscura {
@@ -46,10 +45,12 @@ bool Site::value_only() const {
            NeededNodes::asks_for_value_only(needed, morton, height);
 }
 
-SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa)
+SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa,
+                             const std::atomic<bool>* cancel)
     : set_(set),
       params_(params),
       isa_(isa),
+      cancel_(cancel),
       judge_(set, params.receivers, params.mesh_certificate ? params.tuning.longest_surface : 0) {}
 
 std::optional<SquareBuilder::Part> SquareBuilder::decide(const Site& site, std::vector<Listed>& list,
@@ -91,6 +92,7 @@ void SquareBuilder::note(const Site& site, BuildSquare::Fate fate) {
 
 /// The square's list is list_ from `begin` to its end.
 SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
+    if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) return Quadtree::texel(any_depth);
     float deepest = 2.0f;
     if (const std::optional<Part> part = decide(site, list_, begin, deepest)) return *part;
     const std::size_t end = list_.size(), mark = tree.nodes.size();

@@ -3,6 +3,7 @@
 // Pictures", 1969): what is not decided hands each quadrant the facets that reach into it; the smallest
 // squares are rasterized.
 
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -44,8 +45,8 @@ class SquareBuilder {
     using Quadtree = MultiresBuilder<2>;
     using Part = Quadtree::Part;
 
-    /// `set` and `params` must outlive it.
-    SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa);
+    /// `set`, `params` and `cancel` (null: never) must outlive it.
+    SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa, const std::atomic<bool>* cancel);
 
     /// What is known of a square before it is divided: its part of the tree, which then has no nodes. `list`
     /// from `begin` on holds the facets that reach into it; `deepest` is lowered to the depth beyond which
@@ -58,7 +59,8 @@ class SquareBuilder {
     void hand_down(const std::vector<Listed>& list, std::size_t begin, std::size_t end, float deepest,
                    const Square& square, std::vector<Listed>& to);
 
-    /// The whole part of the tree below a square; its nodes are appended to `tree`.
+    /// The whole part of the tree below a square; its nodes are appended to `tree`. Without meaning, but
+    /// soon, when `cancel` is set meanwhile.
     Part build(const Site& site, const std::vector<Listed>& list);
 
     Quadtree tree;
@@ -79,6 +81,7 @@ class SquareBuilder {
     const FacetSet& set_;
     const BuildParams& params_;
     Isa isa_;
+    const std::atomic<bool>* cancel_;
     Judge judge_;
     IntervalTiler tiler_;
     std::vector<Listed> list_;  ///< the lists of all squares on the way down, one after the other
