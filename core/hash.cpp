@@ -34,7 +34,10 @@ std::uint64_t bulk_hash(const void* data, std::size_t size) {
         std::copy_n(p, left, last);
         add_block(lane, last);
     }
-    return Hasher{}.value(lane).value(static_cast<std::uint64_t>(size)).state;
+    Hasher joined;
+    for (const std::uint64_t l : lane)
+        joined.value(l);
+    return joined.value(static_cast<std::uint64_t>(size)).state;
 }
 
 std::string hash_text(std::uint64_t hash) {

@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "hierarchy/combine.h"
 #include "hierarchy/multires.h"
 #include "raster/interval_map.h"
 #include "raster/view.h"
 #include "raster_solids.h"
+#include "tree_compare.h"
+#include "tree_samples.h"
 
 namespace obscura {
 namespace {
@@ -19,18 +19,6 @@ Image<DepthInterval> scene_intervals(std::uint32_t seed, int side, bool open) {
     return interval_map(mesh, view, {}, Exec{});
 }
 
-Image<DepthInterval> random_intervals(std::uint32_t seed, int side) {
-    std::mt19937 rng(seed);
-    std::uniform_int_distribution<int> step(0, 12);
-    Image<DepthInterval> map(side, side);
-    for (DepthInterval& i : map.pixels) {
-        // Few distinct depths, so that bounds coincide and ties are common.
-        const int entry = step(rng), exit = entry + step(rng) / 3;
-        i = {static_cast<float>(entry) / 16.0f, static_cast<float>(exit) / 16.0f};
-    }
-    return map;
-}
-
 void expect_lossless(const MultiresTree& tree, const Image<DepthInterval>& map) {
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
@@ -39,28 +27,6 @@ void expect_lossless(const MultiresTree& tree, const Image<DepthInterval>& map) 
                                                     << map(x, y).entry << ", " << map(x, y).exit << "]";
         }
     }
-}
-
-/// Nodes above the texels whose texels have no common depth, counted from the picture alone.
-std::uint64_t divided_squares(const Image<DepthInterval>& map) {
-    std::uint64_t divided = 0;
-    Image<DepthInterval> level = map;
-    while (level.width > 1) {
-        Image<DepthInterval> up(level.width / 2, level.width / 2);
-        for (int y = 0; y < up.height; ++y) {
-            for (int x = 0; x < up.width; ++x) {
-                DepthInterval all{0, 1};
-                for (int k = 0; k < 4; ++k) {
-                    const DepthInterval c = level(2 * x + k % 2, 2 * y + k / 2);
-                    all = {std::max(all.entry, c.entry), std::min(all.exit, c.exit)};
-                }
-                up(x, y) = all;
-                divided += all.entry > all.exit;
-            }
-        }
-        level = std::move(up);
-    }
-    return divided;
 }
 
 TEST(Combine, TakesTheFirstOfTheMostStabbedMinima) {
@@ -86,7 +52,7 @@ TEST(Combine, WorksForEightChildren) {
 TEST(Multires, EveryTexelFindsADepthOfItsInterval) {
     for (std::uint32_t seed = 1; seed <= 6; ++seed) {
         for (const Image<DepthInterval>& map :
-             {scene_intervals(seed, 256, seed % 2 == 0), random_intervals(seed, 128)}) {
+             {scene_intervals(seed, 256, seed % 2 == 0), random_interval_map(seed, 128)}) {
             expect_lossless(build_bottom_up(map.view()), map);
             expect_lossless(build_top_down(map.view()), map);
         }
@@ -96,7 +62,7 @@ TEST(Multires, EveryTexelFindsADepthOfItsInterval) {
 TEST(Multires, InnerNodesAreExactlyTheSquaresWithoutACommonDepth) {
     for (std::uint32_t seed = 1; seed <= 6; ++seed) {
         for (const Image<DepthInterval>& map :
-             {scene_intervals(seed, 256, seed % 2 == 0), random_intervals(seed, 64)}) {
+             {scene_intervals(seed, 256, seed % 2 == 0), random_interval_map(seed, 64)}) {
             const MultiresCounts counts = count_nodes(build_bottom_up(map.view()));
             EXPECT_EQ(counts.full + counts.empty, divided_squares(map));
         }

@@ -20,7 +20,7 @@ struct TreeSample {
     MultiresTree tree;
 };
 
-/// Few distinct depths: intervals that often agree.
+/// Few distinct depths: intervals that often agree, whose bounds coincide and tie.
 inline Image<DepthInterval> random_interval_map(std::uint32_t seed, int side) {
     std::mt19937 rng(seed);
     std::uniform_int_distribution<int> step(0, 12);
