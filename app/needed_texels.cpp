@@ -18,10 +18,8 @@ void add_boxes(const std::int32_t (&view)[block_samples], const BoxesOnLevel& bo
         for (std::uint32_t left = boxes.reading[group]; left != 0; left &= left - 1) {
             const int at = group * 16 + std::countr_zero(left), level = boxes.level[at];
             const int shift = level == 0 ? block_level : 0;  // maps are no smaller than a block
-            for (std::int32_t y = boxes.y0[at] >> shift; y <= boxes.y1[at] >> shift; ++y) {
-                for (std::int32_t x = boxes.x0[at] >> shift; x <= boxes.x1[at] >> shift; ++x)
-                    squares.add(view[at], level, x, y);
-            }
+            squares.add(view[at], level, boxes.x0[at] >> shift, boxes.y0[at] >> shift, boxes.x1[at] >> shift,
+                        boxes.y1[at] >> shift);
         }
     }
 }
