@@ -49,10 +49,28 @@ LightShadowStats fresh_stats(const Light& light, const std::optional<FoundResolu
     return stats;
 }
 
-/// Reads the shadow from its file. False when there is none that serves.
-bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey& key, LightShadow& shadow) {
+bool same_view(const LightView& a, const LightView& b) {
+    return a.to_map == b.to_map && a.width == b.width && a.height == b.height &&
+           a.perspective == b.perspective && a.near_w == b.near_w && a.min_depth == b.min_depth &&
+           a.max_depth == b.max_depth;
+}
+
+/// Reads the shadow from its file. False when there is none that serves. A file with the right key that holds
+/// something else than trees of these views is broken (InputError).
+bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey& key,
+          const std::vector<LightView>& views, LightShadow& shadow) {
     std::string notice;
     shadow.trees = load_shadow_cache(file, key, notice);
+    const auto serves = [](const ShadowTree& tree, const LightView& view) {
+        return same_view(tree.view, view);
+    };
+    if (!shadow.trees.empty() &&
+        !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {
+        shadow.trees.clear();
+        throw InputError(file.string(),
+                         "holds shadow trees of other views than its key says; delete it to have it "
+                         "made again");
+    }
     if (!notice.empty()) work.stats.notices.push_back(notice);
     if (shadow.trees.empty()) return false;
     count_trees(shadow);
@@ -69,9 +87,9 @@ bool build_trees(const Work& work, const std::vector<NeededNodes>* needed, std::
     const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
     const auto file = folder / (light.id + ".shadowtree");
     if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
-    const TreeFileKey key = shadow_key(*work.cache.geometry, light,
-                                       fitted_shadow_views(light, shadow.casters, light.shadow.resolution));
-    if (load(work, file, key, shadow)) return true;
+    const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
+    const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
+    if (load(work, file, key, views, shadow)) return true;
     open_shadow_cache(file);
     if (!build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel)) return false;
     write_tree_file(file, shadow.trees, key);
@@ -113,7 +131,9 @@ void plan_shadows(const Work& work) {
         } else {
             shadow.trees.clear();
             shadow.stats = fresh;
-            if (light.shadow.method != ShadowMethod::map) {
+            if (light.shadow.method == ShadowMethod::map) {
+                shadow.map.views.clear();  // not valid until it is built; its memory is used again
+            } else {
                 shadow.map = {};
                 shadow.casters = casters_of(work.scene, light);
             }

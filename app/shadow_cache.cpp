@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 /// Changes when the same inputs give other trees.
 constexpr std::uint32_t construction_version = 1;
 
-/// Two independent halves of a key.
+/// Two halves of a key; large arrays enter both by one hash of 64 bits.
 class KeyHasher {
   public:
     template <class T>

@@ -68,7 +68,8 @@ Plane plane_of(const Mesh& mesh, std::uint32_t t, Vec3d area) {
     const double len = length(area);
     Vec3d n = len > 0 ? Vec3d{area.x / len, area.y / len, area.z / len} : Vec3d{0, 1, 0};
     n = {round_to(grid, n.x), round_to(grid, n.y), round_to(grid, n.z)};
-    // The step for distances is that of a power of 256 metres, so that faces of one size of scene share it.
+    // The step for distances is that of a power of 256 metres, so that faces of one size of scene share it;
+    // walls that touch on either side of such a bound may still differ, which costs time but nothing else.
     double scale = 0x1p-64;
     while (scale < largest_coordinate(c))
         scale *= 256.0;

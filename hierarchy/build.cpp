@@ -34,7 +34,9 @@ void add(BuildStats& to, const BuildStats& s) {
 class Forest {
   public:
     Forest(const FacetSet& set, const BuildParams& params, const Exec& exec, const std::atomic<bool>* cancel)
-        : set_(set), params_(params), exec_(exec), cancel_(cancel) {}
+        : set_(set), params_(params), exec_(exec), cancel_(cancel) {
+        budget_.most = params.max_nodes;
+    }
 
     MultiresTree build(int levels) {
         plant(levels);
@@ -78,7 +80,8 @@ class Forest {
                 worker_ = std::move(f.idle_.back());
                 f.idle_.pop_back();
             } else {
-                worker_ = std::make_unique<SquareBuilder>(f.set_, f.params_, f.exec_.isa, f.cancel_);
+                worker_ =
+                    std::make_unique<SquareBuilder>(f.set_, f.params_, f.exec_.isa, f.budget_, f.cancel_);
             }
         }
         ~Lease() {
@@ -166,8 +169,6 @@ class Forest {
             node.below = std::make_unique<Quadtree>();
             node.below->nodes.assign(worker->tree.nodes.begin(), worker->tree.nodes.end());
             worker->tree.nodes.clear();
-            const std::uint64_t own = node.below->nodes.size();
-            check_size(grown_.fetch_add(own, std::memory_order_relaxed) + own, params_);
             node.trace = std::exchange(worker->trace, {});
         });
     }
@@ -201,10 +202,10 @@ class Forest {
     const BuildParams& params_;
     const Exec& exec_;
     const std::atomic<bool>* cancel_;
-    std::vector<Node> nodes_;               ///< level by level
-    std::vector<std::size_t> parents_;      ///< of node i at i - 1
-    std::size_t lowest_ = 0;                ///< where the lowest level begins
-    std::atomic<std::uint64_t> grown_ = 0;  ///< nodes in all finished squares
+    std::vector<Node> nodes_;           ///< level by level
+    std::vector<std::size_t> parents_;  ///< of node i at i - 1
+    std::size_t lowest_ = 0;            ///< where the lowest level begins
+    NodeBudget budget_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<SquareBuilder>> idle_;
 };
@@ -217,6 +218,8 @@ double seconds_since(Clock::time_point begin) {
 
 MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
                                const Exec& exec, BuildStats* stats, const std::atomic<bool>* cancel) {
+    CHECK(std::has_single_bit(static_cast<unsigned>(params.tuning.block_side)) &&
+          params.tuning.block_side <= block_side);
     CHECK(view.width == view.height && std::has_single_bit(static_cast<unsigned>(view.width)) &&
               view.width <= 1 << 20,
           "a hierarchy needs a square power-of-two map");

@@ -21,12 +21,12 @@ bool dense(std::int32_t side, std::size_t count, const BuildTuning& tuning) {
 
 }  // namespace
 
-void check_size(std::uint64_t nodes, const BuildParams& params) {
-    if (nodes <= params.max_nodes) return;
+void NodeBudget::take(std::uint64_t nodes) {
+    if (used.fetch_add(nodes, std::memory_order_relaxed) + nodes <= most) return;
     throw LimitError(
         fmt::format("a shadow map's tree passes {} nodes; lower its resolution, build only what the frame "
                     "needs, or let open surfaces shade the scene alone (receivers = \"static\")",
-                    params.max_nodes));
+                    most));
 }
 
 Site Site::child(int i) const {
@@ -45,11 +45,12 @@ bool Site::value_only() const {
            NeededNodes::asks_for_value_only(needed, morton, height);
 }
 
-SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa,
+SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa, NodeBudget& budget,
                              const std::atomic<bool>* cancel)
     : set_(set),
       params_(params),
       isa_(isa),
+      budget_(budget),
       cancel_(cancel),
       judge_(set, params.receivers, params.mesh_certificate ? params.tuning.longest_surface : 0) {}
 
@@ -78,7 +79,18 @@ void SquareBuilder::hand_down(const std::vector<Listed>& list, std::size_t begin
 
 SquareBuilder::Part SquareBuilder::build(const Site& site, const std::vector<Listed>& list) {
     list_.assign(list.begin(), list.end());
-    return visit(site, 0);
+    accounted_ = tree.nodes.size();
+    const Part part = visit(site, 0);
+    account(0);
+    return part;
+}
+
+/// Tells the budget of nodes made since last time, if they are more than `step`. Nodes that were made and
+/// dropped again, below a square of which only the value is wanted, stay accounted while the square lasts.
+void SquareBuilder::account(std::size_t step) {
+    if (tree.nodes.size() <= accounted_ + step) return;
+    budget_.take(tree.nodes.size() - accounted_);
+    accounted_ = tree.nodes.size();
 }
 
 SquareBuilder::Part SquareBuilder::done(const Site& site, BuildSquare::Fate fate, DepthInterval interval) {
@@ -111,7 +123,8 @@ SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
             list_.resize(end);
         }
         part = tree.join(child);
-        check_size(tree.nodes.size(), params_);
+        constexpr std::size_t step = 4096;
+        account(step);
     }
     if (site.value_only()) {
         part.kinds = 0;

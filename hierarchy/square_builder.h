@@ -35,8 +35,13 @@ struct Site {
 /// Takes part in nothing: any depth will do (the paper's placeholder, section 4).
 constexpr DepthInterval any_depth{0.0f, 1.0f};
 
-/// Throws LimitError beyond params.max_nodes.
-void check_size(std::uint64_t nodes, const BuildParams& params);
+/// How many nodes all threads together may make.
+struct NodeBudget {
+    std::uint64_t most = UINT64_MAX;
+    std::atomic<std::uint64_t> used = 0;
+    /// Throws LimitError beyond `most`.
+    void take(std::uint64_t nodes);
+};
 
 /// Builds the part of the tree below one square, depth first. One per thread: it keeps working memory as
 /// large as the scene.
@@ -46,7 +51,8 @@ class SquareBuilder {
     using Part = Quadtree::Part;
 
     /// `set`, `params` and `cancel` (null: never) must outlive it.
-    SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa, const std::atomic<bool>* cancel);
+    SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa, NodeBudget& budget,
+                  const std::atomic<bool>* cancel);
 
     /// What is known of a square before it is divided: its part of the tree, which then has no nodes. `list`
     /// from `begin` on holds the facets that reach into it; `deepest` is lowered to the depth beyond which
@@ -72,6 +78,7 @@ class SquareBuilder {
   private:
     Part done(const Site& site, BuildSquare::Fate fate, DepthInterval interval);
     Part visit(const Site& site, std::size_t begin);
+    void account(std::size_t step);
     void list_records(const Site& site, std::size_t begin);
     Part rasterize_block(const Site& site, std::size_t begin);
     Part rasterize_tile(const Site& site, std::size_t begin);
@@ -81,6 +88,8 @@ class SquareBuilder {
     const FacetSet& set_;
     const BuildParams& params_;
     Isa isa_;
+    NodeBudget& budget_;
+    std::size_t accounted_ = 0;  ///< of the tree's nodes, those that the budget knows
     const std::atomic<bool>* cancel_;
     Judge judge_;
     IntervalTiler tiler_;

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "hierarchy/tree_file.h"
 #include "json_reader.h"
 #include "program.h"
 
@@ -90,6 +91,24 @@ TEST(ShadowCache, RefusesFilesThatAreCutAlteredOrForeign) {
     std::filesystem::remove(scene.folder / "maps/lamp.shadowtree");
     EXPECT_EQ(scene.render().code, 0);
     EXPECT_EQ(scene.map(), good);
+}
+
+TEST(ShadowCache, RefusesTreesOfOtherViewsUnderTheRightKey) {
+    const CachedScene scene;
+    ASSERT_EQ(scene.render().code, 0);
+    const auto file = scene.folder / "maps/lamp.shadowtree";
+    const TreeFile good = read_tree_file(file);
+    ASSERT_EQ(good.trees.size(), 1u);
+    ShadowTree moved = good.trees[0];
+    moved.view.to_map.m[0][3] += 1.0;
+    // Files are renamed into place, so what is mapped from the first one stays readable.
+    for (const std::vector<ShadowTree>& trees :
+         {std::vector<ShadowTree>{moved}, std::vector<ShadowTree>(2, good.trees[0])}) {
+        write_tree_file(file, trees, good.key);
+        const Outcome run = scene.render();
+        EXPECT_EQ(run.code, 3) << run.err;
+        EXPECT_NE(run.err.find("other views"), std::string::npos) << run.err;
+    }
 }
 
 TEST(ShadowCache, LiesWhereScenesMayRead) {
