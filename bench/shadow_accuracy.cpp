@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "bench/shadow_bench.h"
 #include "bench/shadow_methods.h"
+#include "bench/shadow_rays.h"
 #include "bench/wrong_picture.h"
 #include "core/file_output.h"
 #include "core/image_io.h"
@@ -95,6 +97,32 @@ void compare_with_dense(const Judge& judge, const std::vector<std::uint8_t>& kin
     }
 }
 
+/// The rays that are timed: they start a little off the surface, and are not the truth either.
+AccuracyRow judge_rays(Judge& judge) {
+    AccuracyRow row;
+    row.scene = judge.recipe.name;
+    row.triangles = judge.scene.mesh.triangles.size();
+    row.method = embree_name;
+    std::vector<std::uint8_t> shown(judge.truth.truth.size());
+    const Session session =
+        open_shadow_rays(judge.scene.mesh, judge.points, judge.truth.to_light, shown, judge.exec);
+    session.jobs[0].run();
+    row.bytes = std::llround(session.prepare_mib * (1 << 20));
+    row.build_s = 1e-3 * session.prepare_ms;
+    row.wrong.covered = judge.points.covered;
+    for (std::size_t p = 0; p < shown.size(); ++p) {
+        const Truth truth = judge.truth.truth[p];
+        if (truth != Truth::lit && truth != Truth::dark) continue;
+        ++row.wrong.facing;
+        const bool differs = (shown[p] != 0) != (truth == Truth::lit);
+        row.wrong.wrong += differs ? 1 : 0;
+        row.wrong.leaks += differs && shown[p] != 0 ? 1 : 0;
+    }
+    judge.options.say(fmt::format("{}, Embree's timed rays: {:.4f} % wrong ({} of {})", row.scene,
+                                  100 * row.wrong.fraction(), row.wrong.wrong, row.wrong.covered));
+    return row;
+}
+
 void paint(const Judge& judge, const std::vector<std::uint8_t>& kinds) {
     const Image<Rgb8> picture = wrong_picture(judge.truth, kinds);
     write_file_atomically(judge.options.out / fmt::format("shadows_{}.png", judge.recipe.name),
@@ -126,6 +154,7 @@ std::vector<AccuracyRow> measure_accuracy(const ShadowRecipe& recipe, const Shad
         count_steps(judge, built, rows.back());
         compare_with_dense(judge, kinds, rows.back());
     }
+    rows.push_back(judge_rays(judge));
     return rows;
 }
 

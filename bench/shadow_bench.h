@@ -18,12 +18,13 @@ struct ShadowBenchPlan {
     std::vector<int> tree_sizes;                                 ///< of the table of trees
     std::vector<int> direction_sizes;                            ///< top-down against bottom-up
     int peer_map = 16384;                                        ///< of the peers' dual depths
-    std::vector<std::string> timed_scenes;                       ///< empty: all
-    int shallow_size = 65536;  ///< largest tree of scenes that are not timed
-    int picture_size = 4096;   ///< map whose wrong pixels are painted
+    std::vector<std::string> timed_scenes;                       ///< at all sizes; empty: all
+    int shallow_timed_size = 16384;                              ///< largest timed map of the others
+    int shallow_size = 65536;                                    ///< largest tree of the others
+    int picture_size = 4096;                                     ///< map whose wrong pixels are painted
 };
 ShadowBenchPlan shadow_bench_plan(bool quick);
-/// Whether lookups are timed on that scene.
+/// Whether lookups are timed on that scene at all sizes.
 bool is_timed(const ShadowBenchPlan& plan, const std::string& scene);
 
 /// Why the next tree of a scene is left out, empty if it is not: scenes that are not timed stop at

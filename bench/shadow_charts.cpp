@@ -5,22 +5,12 @@
 #include <iterator>
 
 #include "bench/gnuplot.h"
+#include "bench/panel_chart.h"
 #include "bench/shadow_report.h"
+#include "bench/shadow_summary.h"
 
 namespace obscura {
 namespace {
-
-/// Okabe and Ito's colours and gnuplot's point types, as in the raster charts: ours are blue circles.
-struct Style {
-    const char* color;
-    int hollow, filled;
-};
-
-Style style_of(const std::string& method) {
-    if (method == compressed_name) return {"#0072B2", 6, 7};
-    if (method == dense_name) return {"#D55E00", 4, 5};
-    return {"#009E73", 8, 9};
-}
 
 template <class Row>
 std::vector<std::string> scenes_in(const std::vector<Row>& rows) {
@@ -31,84 +21,19 @@ std::vector<std::string> scenes_in(const std::vector<Row>& rows) {
     return scenes;
 }
 
-/// A point of a line chart.
-struct Point {
-    double x, y;
-};
-
-/// One line: a method in a panel.
-struct Line {
-    std::string method;
-    std::vector<Point> points;
-};
-
-/// A chart of one panel per scene, three in a row, both axes logarithmic.
-struct PanelChart {
-    std::string title, note, x_label, y_label;
-    std::string x_tics;  ///< gnuplot commands for the axis
-    std::vector<std::pair<std::string, std::vector<Line>>> panels;
-};
-
-std::string panel_script(const PanelChart& chart) {
-    const auto count = static_cast<int>(chart.panels.size());
-    const int columns = std::min(count, 3), rows = (count + columns - 1) / columns;
-    const double height = 110.0 + 290.0 * rows, width = 60.0 + 370.0 * columns;
-    const double top = 80 / height, bottom = 30 / height;
-    std::string script = fmt::format(
-        "set terminal svg size {:.0f},{:.0f} dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
-        "set multiplot\n"
-        "set label 1 {} at screen 0.5,{:.4f} center font ',17'\n"
-        "set label 2 {} at screen 0.5,{:.4f} center tc rgb '#333333'\n"
-        "set logscale xy\nset format y '%g'\nset tics nomirror\nset border 3 lc rgb '#888888'\n"
-        "set grid lt 1 lc rgb '#dddddd' lw 0.6\nset key bottom left samplen 1\n{}\n",
-        width, height, gnuplot_text(chart.title), 1 - 26 / height, gnuplot_text(chart.note), 1 - 50 / height,
-        chart.x_tics);
-    for (int i = 0; i < count; ++i) {
-        const auto& [scene, lines] = chart.panels[static_cast<std::size_t>(i)];
-        const double cell_w = 1.0 / columns, cell_h = (1 - top - bottom) / rows;
-        script +=
-            fmt::format("set origin {:.4f},{:.4f}\nset size {:.4f},{:.4f}\nset title {} offset 0,-0.6\n",
-                        (i % columns) * cell_w, 1 - top - (i / columns + 1) * cell_h, cell_w, cell_h,
-                        gnuplot_text(scene));
-        script +=
-            fmt::format("set xlabel {} offset 0,0.4\nset ylabel {} offset 1,0\n", gnuplot_text(chart.x_label),
-                        gnuplot_text(i % columns == 0 ? chart.y_label : ""));
-        std::string plot;
-        for (std::size_t l = 0; l < lines.size(); ++l) {
-            script += fmt::format("$p{}_{} << EOD\n", i, l);
-            for (const Point& p : lines[l].points)
-                script += fmt::format("{:.6g} {:.6g}\n", p.x, p.y);
-            script += "EOD\n";
-            const Style style = style_of(lines[l].method);
-            plot += fmt::format("{} $p{}_{} with linespoints lw 1.6 ps 0.7 pt {} lc rgb '{}' title {}",
-                                plot.empty() ? "plot" : ",", i, l, style.filled, style.color,
-                                gnuplot_text(lines[l].method));
-        }
-        script += plot + "\nunset label\n";
-    }
-    return script + "unset multiplot\n";
-}
-
-std::string size_tics() {
-    std::string tics = "set xtics (";
-    for (int size = 1024; size <= 1 << 20; size *= 4)
-        tics += fmt::format("{}'{}' {}", size == 1024 ? "" : ", ", size_name(size), size);
-    return tics + ")";
-}
-
 /// A panel per scene; `x_of` picks the abscissa of a row.
 PanelChart accuracy_chart(const std::vector<AccuracyRow>& rows,
                           const std::function<double(const AccuracyRow&)>& x_of) {
     PanelChart chart;
     chart.y_label = "wrong pixels, %";
     for (const std::string& scene : scenes_in(rows)) {
-        std::vector<Line> lines;
+        std::vector<PanelLine> lines;
         for (const AccuracyRow& row : rows) {
-            if (row.scene != scene || row.wrong.wrong == 0) continue;
+            if (row.scene != scene || row.wrong.wrong == 0 || row.size == 0) continue;
             if (lines.empty() || lines.back().method != row.method) lines.push_back({row.method, {}});
             lines.back().points.push_back({x_of(row), 100 * row.wrong.fraction()});
         }
-        if (!lines.empty()) chart.panels.emplace_back(scene, std::move(lines));
+        if (!lines.empty()) chart.panels.push_back({scene, {}, std::move(lines)});
     }
     return chart;
 }
@@ -121,14 +46,14 @@ PanelChart tree_chart(const std::vector<SizeRow>& rows) {
     chart.y_label = "MB";
     chart.x_tics = size_tics();
     for (const std::string& scene : scenes_in(rows)) {
-        Line tree{compressed_name, {}}, dense{dense_name, {}};
+        PanelLine tree{compressed_name, {}}, dense{dense_name, {}};
         for (const SizeRow& row : rows) {
             if (row.scene != scene || !row.problem.empty()) continue;
             tree.points.push_back({static_cast<double>(row.size), static_cast<double>(row.words24) * 1e-6});
             dense.points.push_back(
                 {static_cast<double>(row.size), 4e-6 * row.size * static_cast<double>(row.size)});
         }
-        if (!tree.points.empty()) chart.panels.push_back({scene, {dense, tree}});
+        if (!tree.points.empty()) chart.panels.push_back({scene, {}, {dense, tree}});
     }
     return chart;
 }
@@ -181,7 +106,7 @@ std::string lookup_script(const std::vector<TimeRow>& rows) {
     std::string script = lookup_frame(lines.size()), plot;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const bool heading = lines[i].rows.empty();
-        const Style style = style_of(lines[i].method);
+        const MethodStyle style = method_style(lines[i].method);
         script += fmt::format("set label {} at screen {}, first {} {} tc rgb '{}'{}\n",
                               gnuplot_text(lines[i].label), heading ? 0.02 : 0.29, i + 1,
                               heading ? "left" : "right", heading ? "#000000" : style.color,
@@ -204,6 +129,8 @@ void draw_shadow_charts(const ShadowResults& results, const BenchOptions& option
         options.say("gnuplot is not installed (package gnuplot-nox): tables only, no charts");
         return;
     }
+    const PanelChart summary = summary_chart(results);
+    if (!summary.panels.empty()) run_gnuplot(panel_script(summary), options.out / "shadows_summary.svg");
     PanelChart by_size = accuracy_chart(results.accuracy,
                                         [](const AccuracyRow& row) { return static_cast<double>(row.size); });
     by_size.title = "Wrong shadows against the size of the map";

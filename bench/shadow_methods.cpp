@@ -27,14 +27,11 @@ double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Of the tree with a grid: 2^8 squared entries of 8 bytes, 512 KiB, which the second-level cache holds.
-constexpr std::int32_t top_grid_levels = 8;
-
 constexpr std::pair<const char*, int> kernels[] = {{"1 tap", 1}, {"3x3", 3}, {"5x5", 5}};
 
-/// A tree, and the same with a dense top grid.
+/// A tree as scenes keep it, with the default top grid, and the same without.
 struct BuiltTree {
-    std::vector<ShadowTree> plain, with_grid;  ///< one each: pcf_light() wants a span
+    std::vector<ShadowTree> usual, gridless;  ///< one each: pcf_light() wants a span
 };
 
 void look_up(const PcfLight& light, Isa isa, bool naive, const SurfaceBlock& surface, float* visible) {
@@ -46,19 +43,25 @@ void look_up(const PcfLight& light, Isa isa, bool naive, const SurfaceBlock& sur
 }
 
 std::vector<ShadowLookup> tree_lookups(const std::shared_ptr<const BuiltTree>& trees, const Light& light,
-                                       Vec3d eye, Isa isa) {
+                                       const Scene& scene, Isa isa) {
+    const CameraRays rays = camera_rays(scene.camera, scene.render.width, scene.render.height);
     std::vector<ShadowLookup> lookups;
-    const auto add = [&](const std::string& name, const std::vector<ShadowTree>& tree, int side, bool naive) {
-        PcfLight pcf = pcf_light(light, tree, eye);
+    enum class Way { shared, naive, hierarchical };
+    const auto add = [&](const std::string& name, const std::vector<ShadowTree>& tree, int side, Way way) {
+        PcfLight pcf = pcf_light(light, tree, scene.camera.eye);
         pcf.side = side;
-        lookups.push_back({name, [trees, pcf, isa, naive](const SurfaceBlock& surface, float* visible) {
-                               look_up(pcf, isa, naive, surface, visible);
-                           }});
+        if (way == Way::hierarchical) filter_hierarchically(pcf, rays);
+        lookups.push_back(
+            {name, [trees, pcf, isa, naive = way == Way::naive](const SurfaceBlock& surface, float* visible) {
+                 look_up(pcf, isa, naive, surface, visible);
+             }});
     };
     for (const auto& [name, side] : kernels) {
-        add(name, trees->plain, side, false);
-        add(fmt::format("{}, top grid", name), trees->with_grid, side, false);
-        if (side > 1) add(fmt::format("{}, naive", name), trees->plain, side, true);
+        add(name, trees->usual, side, Way::shared);
+        add(fmt::format("{}, no top grid", name), trees->gridless, side, Way::shared);
+        if (side == 1) continue;
+        add(fmt::format("{}, naive", name), trees->usual, side, Way::naive);
+        add(fmt::format("{}, hierarchical", name), trees->usual, side, Way::hierarchical);
     }
     return lookups;
 }
@@ -75,10 +78,10 @@ std::vector<PointLookup> tree_point_lookups(const std::shared_ptr<const BuiltTre
                  }
              }});
     };
-    add("points", trees->plain[0], false);
-    add("points, coherent", trees->plain[0], true);
-    add("points, top grid", trees->with_grid[0], false);
-    add("points, top grid, coherent", trees->with_grid[0], true);
+    add("points", trees->usual[0], false);
+    add("points, coherent", trees->usual[0], true);
+    add("points, no top grid", trees->gridless[0], false);
+    add("points, no top grid, coherent", trees->gridless[0], true);
     return lookups;
 }
 
@@ -122,17 +125,21 @@ BuiltShadow build_compressed(const Scene& scene, int size, const Exec& exec) {
     const auto start = Clock::now();
     const LightView view = shadow_views(light, bounds_of(scene.mesh))[0];
     const auto trees = std::make_shared<BuiltTree>();
-    trees->plain.push_back(encode_tree(build_shadow_tree(scene.mesh, view, {}, exec), view));
+    ShadowTree tree = encode_tree(build_shadow_tree(scene.mesh, view, {}, exec), view);
+    const int top_levels = std::min(tree.code.levels, ShadowSettings{}.top_levels);
+    set_top_grid(tree, top_levels);
     BuiltShadow built;
     built.build_s = seconds_since(start);
-    trees->with_grid = trees->plain;
-    set_top_grid(trees->with_grid[0], std::min(trees->plain[0].code.levels, top_grid_levels));
     built.view = view;
-    built.bytes = static_cast<std::int64_t>(trees->plain[0].bytes);
-    built.light = pcf_light(light, trees->plain, scene.camera.eye);
+    built.bytes = static_cast<std::int64_t>(tree.bytes) +
+                  (static_cast<std::int64_t>(sizeof(TopNode)) << (2 * top_levels));
+    trees->gridless.push_back(tree);
+    set_top_grid(trees->gridless[0], 0);
+    trees->usual.push_back(std::move(tree));
+    built.light = pcf_light(light, trees->usual, scene.camera.eye);
     const std::shared_ptr<const BuiltTree> kept = trees;
-    built.lookups = [kept, light, eye = scene.camera.eye](Isa isa) {
-        return tree_lookups(kept, light, eye, isa);
+    built.lookups = [kept, light, staged = &scene](Isa isa) {
+        return tree_lookups(kept, light, *staged, isa);
     };
     built.point_lookups = [kept](Isa isa) { return tree_point_lookups(kept, isa); };
     return built;

@@ -39,7 +39,8 @@ struct BuiltShadow {
 /// One float per texel; size up to 16384.
 BuiltShadow build_dense(const Scene& scene, int size, const Exec& exec);
 
-/// The tree of a map of up to 2^20 texels a side.
+/// The tree of a map of up to 2^20 texels a side, with the top grid that scenes have by default, which
+/// `bytes` count. `scene` must outlive the result.
 BuiltShadow build_compressed(const Scene& scene, int size, const Exec& exec);
 
 }  // namespace obscura

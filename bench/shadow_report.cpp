@@ -7,6 +7,7 @@
 
 #include "bench/machine.h"
 #include "bench/report.h"
+#include "bench/shadow_summary.h"
 #include "core/file_output.h"
 
 namespace obscura {
@@ -34,7 +35,7 @@ std::string range_text(const std::vector<double>& runs_ms) {
 }
 
 void write_machine(Out out) {
-    fmt::format_to(out, "## Machine\n\n| | |\n|---|---|\n");
+    fmt::format_to(out, "\n## Machine\n\n| | |\n|---|---|\n");
     for (const auto& [name, value] : describe_machine())
         fmt::format_to(out, "| {} | {} |\n", name, value);
 }
@@ -51,6 +52,7 @@ void write_accuracy(Out out, const std::vector<AccuracyRow>& rows) {
         "| scene | map | wrong % | pixels | worse | better | outline | inside | grazing | open | MB | built "
         "in s |\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (const AccuracyRow& row : rows) {
+        if (row.size == 0) continue;  // rays: in the summary
         const auto kind = [&](Wrong k) { return row.wrong.by_kind[static_cast<std::size_t>(k)]; };
         fmt::format_to(out, "| {} | {} | {:.4f} | {} | {} | {} | {} | {} | {} | {} | {:.3f} | {:.2f} |\n",
                        row.scene, method_name(row.method, row.size), 100 * row.wrong.fraction(),
@@ -77,40 +79,36 @@ void write_times(Out out, const std::vector<TimeRow>& rows) {
     }
 }
 
-/// The row of a scene's job with so many threads; null when there is none with times.
-const TimeRow* find_row(const std::vector<TimeRow>& rows, const TimeRow& like, const std::string& method,
-                        int size, const std::string& job) {
-    for (const TimeRow& row : rows) {
-        const bool fits = row.scene == like.scene && row.threads == like.threads && row.method == method;
-        if (fits && row.size == size && row.job == job && !row.runs_ms.empty()) return &row;
-    }
-    return nullptr;
-}
-
 /// Rates of trees beside Embree's packets and the largest dense map; naive kernels beside shared ones.
 void write_ratios(Out out, const std::vector<TimeRow>& rows) {
     int dense = 0;
     for (const TimeRow& row : rows)
         dense = row.method == dense_name ? std::max(dense, row.size) : dense;
+    const auto is_kernel = [](const TimeRow& row) {
+        return row.job.rfind("1 tap", 0) == 0 || row.job.rfind("3x3", 0) == 0 || row.job.rfind("5x5", 0) == 0;
+    };
     if (dense == 0) return;
     fmt::format_to(
         out,
         "\n## Lookups in trees against peers\n\nRatios of rates: above 1 the tree is faster. Dense: {} "
-        "with the same kernel. Naive: every tap from the root. From surfaces to visibility, no top "
-        "grid.\n\n| scene | map | threads | job | M/s per thread | / Embree packets | / dense | / "
-        "naive |\n|---|---|--:|---|--:|--:|--:|--:|\n",
+        "with the same kernel. Naive: every tap from the root. From surfaces to visibility. "
+        "Trees have the default top grid but where a job says so; hierarchical kernels are as large as the "
+        "pixel on the map.\n\n| scene | map | threads | job | M/s per thread | / Embree packets | / dense "
+        "| / naive |\n|---|---|--:|---|--:|--:|--:|--:|\n",
         size_name(dense));
     for (const TimeRow& row : rows) {
-        const bool kernel = row.job == "1 tap" || row.job == "3x3" || row.job == "5x5";
-        if (row.method != compressed_name || !kernel || row.runs_ms.empty()) continue;
+        const bool naive = row.job.find("naive") != std::string::npos;
+        if (row.method != compressed_name || !is_kernel(row) || naive || row.runs_ms.empty()) continue;
+        const bool hierarchical = row.job.find("hierarchical") != std::string::npos;
+        const std::string kernel = row.job.substr(0, row.job.find(','));
         const auto ratio = [&](const std::string& method, int size, const std::string& job) {
-            const TimeRow* peer = find_row(rows, row, method, size, job);
+            const TimeRow* peer = find_time(rows, {row.scene, method, size}, job, row.threads);
             return peer != nullptr ? fmt::format("{:.2f}", row.rate() / peer->rate()) : std::string("-");
         };
         fmt::format_to(out, "| {} | {} | {} | {} | {:.1f} | {} | {} | {} |\n", row.scene, size_name(row.size),
                        row.threads, row.job, row.rate(), ratio(embree_name, 0, "packets of 16 rays"),
-                       ratio(dense_name, dense, row.job),
-                       ratio(compressed_name, row.size, row.job + ", naive"));
+                       ratio(dense_name, dense, kernel),
+                       hierarchical ? "-" : ratio(compressed_name, row.size, kernel + ", naive"));
     }
 }
 
@@ -216,6 +214,15 @@ std::string size_name(int size) {
     return fmt::format("{}", size);
 }
 
+const TimeRow* find_time(const std::vector<TimeRow>& rows, const MethodKey& of, const std::string& job,
+                         int threads) {
+    for (const TimeRow& row : rows) {
+        const bool fits = row.scene == of.scene && row.method == of.method && row.size == of.size;
+        if (fits && row.threads == threads && row.job == job && !row.runs_ms.empty()) return &row;
+    }
+    return nullptr;
+}
+
 std::string method_name(const std::string& method, int size) {
     return size == 0 ? method : fmt::format("{} {}", method, size_name(size));
 }
@@ -227,11 +234,14 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
         "inside,worse,better,naive_steps,shared_steps\n";
     for (const AccuracyRow& row : rows) {
         const WrongPixels& w = row.wrong;
+        const auto kind = [&](std::size_t k) {  // rays are not judged by kind
+            return row.size > 0 ? fmt::format("{}", w.by_kind[k]) : std::string();
+        };
         fmt::format_to(Out(text),
                        "{},{},{},{},{},{:.3f},{},{},{},{:.6f},{},{},{},{},{},{},{},{:.2f},{:.2f}\n",
                        row.scene, row.triangles, row.method, row.size, row.bytes, row.build_s, w.covered,
-                       w.facing, w.wrong, 100 * w.fraction(), w.leaks, w.by_kind[0], w.by_kind[1],
-                       w.by_kind[2], w.by_kind[3], row.has_dense ? fmt::format("{}", row.worse) : "",
+                       w.facing, w.wrong, 100 * w.fraction(), w.leaks, kind(0), kind(1), kind(2), kind(3),
+                       row.has_dense ? fmt::format("{}", row.worse) : "",
                        row.has_dense ? fmt::format("{}", row.better) : "", row.naive_steps, row.shared_steps);
     }
     return text;
@@ -292,6 +302,7 @@ std::string shadow_markdown(const ShadowResults& results, const BenchOptions& op
     fmt::format_to(out,
                    "Medians of up to {} interleaved runs. What is measured, and how: bench/README.md.\n\n",
                    options.runs);
+    text += summary_markdown(results);
     write_machine(out);
     write_accuracy(out, results.accuracy);
     write_ratios(out, results.times);

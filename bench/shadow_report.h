@@ -13,6 +13,16 @@ std::string size_name(int size);
 /// "dense 16k", "compressed 256k", "Embree".
 std::string method_name(const std::string& method, int size);
 
+/// What of several threads and jobs belongs together.
+struct MethodKey {
+    std::string scene, method;
+    int size = 0;
+    bool operator==(const MethodKey&) const = default;
+};
+/// The row of a method's job with so many threads; null when there is none with times.
+const TimeRow* find_time(const std::vector<TimeRow>& rows, const MethodKey& of, const std::string& job,
+                         int threads);
+
 std::string accuracy_csv(const std::vector<AccuracyRow>& rows);
 std::string times_csv(const std::vector<TimeRow>& rows);
 std::string trees_csv(const std::vector<SizeRow>& rows);
@@ -23,8 +33,8 @@ std::string shadow_markdown(const ShadowResults& results, const BenchOptions& op
 /// options.out. Throws OutputError.
 void write_shadow_report(const ShadowResults& results, const BenchOptions& options);
 
-/// Writes shadows_{accuracy,bytes,lookups,trees}.svg, those that have something to show. Without gnuplot says
-/// so and draws nothing.
+/// Writes shadows_{summary,accuracy,bytes,lookups,trees}.svg, those that have something to show. Without
+/// gnuplot says so and draws nothing.
 void draw_shadow_charts(const ShadowResults& results, const BenchOptions& options);
 
 }  // namespace obscura

@@ -110,12 +110,15 @@ Session open_map(const Field& field, int size, BuildMap build, const Exec& exec)
 std::vector<Entrant> entrants_of(const Field& field, const ShadowBenchPlan& plan,
                                  std::vector<std::uint8_t>& shown) {
     std::vector<Entrant> entrants;
+    const bool deep = is_timed(plan, field.recipe.name);
     for (const int size : plan.timed_dense_sizes) {
+        if (!deep && size > plan.shallow_timed_size) continue;
         entrants.push_back({dense_name, size, [&field, size](const Exec& exec) {
                                 return open_map(field, size, build_dense, exec);
                             }});
     }
     for (const int size : plan.timed_compressed_sizes) {
+        if (!deep && size > plan.shallow_timed_size) continue;
         entrants.push_back({compressed_name, size, [&field, size](const Exec& exec) {
                                 return open_map(field, size, build_compressed, exec);
                             }});

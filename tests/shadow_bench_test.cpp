@@ -184,14 +184,28 @@ TEST(ShadowBench, QuickRunWritesTablesAndCharts) {
     std::getline(csv, line);
     const auto columns = std::count(line.begin(), line.end(), ',');
     std::map<std::string, int> rows;
+    int hierarchical = 0;
     while (std::getline(csv, line)) {
         // The names of jobs may hold commas, in quotes.
         EXPECT_GE(std::count(line.begin(), line.end(), ','), columns) << line;
+        hierarchical += line.find("hierarchical") != std::string::npos ? 1 : 0;
         const std::size_t begin = line.find(',', line.find(',') + 1) + 1;
         ++rows[line.substr(begin, line.find(',', begin) - begin)];
     }
     for (const char* method : {"dense", "compressed", "Embree"})
         EXPECT_GT(rows[method], 0) << method;
+    EXPECT_EQ(hierarchical, 8);  // sides 3 and 5, two sizes, one and two threads
+    // The summary: one line per method and timed size, none without its error but the largest tree's.
+    std::ifstream report(out / "shadows.md");
+    int lines = 0, unknown = 0;
+    while (std::getline(report, line) && line != "## Summary") {
+    }
+    while (std::getline(report, line) && line.rfind("## ", 0) != 0) {
+        lines += line.rfind("| city |", 0) == 0 ? 1 : 0;
+        unknown += line.rfind("| city | compressed 4k | - |", 0) == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(lines, 5);
+    EXPECT_EQ(unknown, 1);
     std::filesystem::remove_all(out);
 }
 

@@ -1,0 +1,83 @@
+#include "bench/panel_chart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/gnuplot.h"
+#include "bench/shadow_report.h"
+
+namespace obscura {
+namespace {
+
+/// Canvas, titles and what all panels have in common.
+std::string chart_head(const PanelChart& chart, double width, double height) {
+    return fmt::format(
+        "set terminal svg size {:.0f},{:.0f} dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n"
+        "set multiplot\nset clip two\n"
+        "set label 1 {} at screen 0.5,{:.4f} center font ',17'\n"
+        "set label 2 {} at screen 0.5,{:.4f} center tc rgb '#333333'\n"
+        "set logscale xy\nset format y '%g'\nset tics nomirror\nset border 3 lc rgb '#888888'\n"
+        "set grid lt 1 lc rgb '#dddddd' lw 0.6\nset key bottom left samplen 1\n{}\n",
+        width, height, gnuplot_text(chart.title), 1 - 26 / height, gnuplot_text(chart.note), 1 - 50 / height,
+        chart.x_tics);
+}
+
+/// Data and the plot command of panel `i`.
+std::string panel_plot(const std::vector<PanelLine>& lines, std::size_t i) {
+    std::string data, plot;
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        const PanelLine& line = lines[l];
+        data += fmt::format("$p{}_{} << EOD\n", i, l);
+        for (const PanelPoint& p : line.points)
+            data += fmt::format("{:.6g} {:.6g}\n", p.x, p.y);
+        data += "EOD\n";
+        const MethodStyle style = method_style(line.method);
+        const std::string look = line.plain ? fmt::format("lines lw 1.6 dt {}", line.hollow ? 3 : 1)
+                                            : fmt::format("linespoints lw 1.6 ps 0.7 pt {}",
+                                                          line.hollow ? style.hollow : style.filled);
+        plot += fmt::format("{} $p{}_{} with {} lc rgb '{}' title {}", plot.empty() ? "plot" : ",", i, l,
+                            look, style.color, gnuplot_text(line.name.empty() ? line.method : line.name));
+    }
+    return data + plot + '\n';
+}
+
+}  // namespace
+
+MethodStyle method_style(const std::string& method) {
+    if (method == compressed_name) return {"#0072B2", 6, 7};
+    if (method == dense_name) return {"#D55E00", 4, 5};
+    return {"#009E73", 8, 9};
+}
+
+std::string panel_script(const PanelChart& chart) {
+    const auto count = static_cast<int>(chart.panels.size());
+    const int columns = std::min(count, chart.columns), rows = (count + columns - 1) / columns;
+    const double height = 110.0 + chart.panel_height * rows, width = std::max(60.0 + 370.0 * columns, 800.0);
+    const double top = 80 / height, bottom = 30 / height;
+    const double cell_w = 1.0 / columns, cell_h = (1 - top - bottom) / rows;
+    std::string script = chart_head(chart, width, height);
+    for (int i = 0; i < count; ++i) {
+        const Panel& panel = chart.panels[static_cast<std::size_t>(i)];
+        const std::string y_label = panel.y_label.empty() && i % columns == 0 ? chart.y_label : panel.y_label;
+        const bool names_x = !chart.one_key || i + columns >= count;
+        script +=
+            fmt::format("set origin {:.4f},{:.4f}\nset size {:.4f},{:.4f}\nset title {} offset 0,-0.6\n",
+                        (i % columns) * cell_w, 1 - top - (i / columns + 1) * cell_h, cell_w, cell_h,
+                        gnuplot_text(panel.title));
+        script += fmt::format("set xlabel {} offset 0,0.4\nset ylabel {} offset 1,0\n",
+                              gnuplot_text(names_x ? chart.x_label : ""), gnuplot_text(y_label));
+        if (chart.one_key && i == columns) script += "unset key\n";
+        script += panel_plot(panel.lines, static_cast<std::size_t>(i)) + "unset label\n";
+    }
+    return script + "unset multiplot\n";
+}
+
+std::string size_tics() {
+    std::string tics = "set xtics (";
+    for (int size = 1024; size <= 1 << 20; size *= 4)
+        tics += fmt::format("{}'{}' {}", size == 1024 ? "" : ", ", size_name(size), size);
+    return tics + ")";
+}
+
+}  // namespace obscura

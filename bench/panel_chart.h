@@ -1,0 +1,51 @@
+#pragma once
+// Small multiples: panels of lines in rows and columns, drawn by gnuplot.
+
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// Okabe and Ito's colours and gnuplot's point types, as in the raster charts: ours are blue circles.
+struct MethodStyle {
+    const char* color;
+    int hollow, filled;
+};
+MethodStyle method_style(const std::string& method);
+
+struct PanelPoint {
+    double x, y;
+};
+
+/// One line: a method in a panel.
+struct PanelLine {
+    std::string method;
+    std::vector<PanelPoint> points;
+    bool hollow = false;    ///< hollow points
+    bool plain = false;     ///< a line without points
+    std::string name = {};  ///< in the key; empty: the method
+};
+
+struct Panel {
+    std::string title;
+    std::string y_label;  ///< empty: the chart's, on panels of the first column
+    std::vector<PanelLine> lines;
+};
+
+/// Panels row by row, both axes logarithmic.
+struct PanelChart {
+    std::string title, note, x_label, y_label;
+    std::string x_tics;  ///< gnuplot commands for the axis
+    std::vector<Panel> panels;
+    int columns = 3;         ///< at most
+    int panel_height = 290;  ///< pixels
+    bool one_key = false;    ///< a key on the first panel alone, and x labels on the last row alone
+};
+
+/// The script that draws it, for run_gnuplot().
+std::string panel_script(const PanelChart& chart);
+
+/// gnuplot commands: texels a side from 1k to 1M.
+std::string size_tics();
+
+}  // namespace obscura
