@@ -11,7 +11,6 @@ namespace {
 
 struct Point {
     std::int32_t x, y;
-    friend bool operator==(const Point&, const Point&) = default;
 };
 
 /// Ends of edge k of an outline, as its record walks it.

@@ -11,7 +11,7 @@ namespace {
 
 /// Height of the lowest node over the 5 x 5 texels around (x, y): above it all their bits are equal.
 int kernel_height(int x, int y) {
-    return std::bit_width(static_cast<unsigned>(((x - 2) ^ (x + 2)) | ((y - 2) ^ (y + 2))));
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(((x - 2) ^ (x + 2)) | ((y - 2) ^ (y + 2)))));
 }
 
 }  // namespace

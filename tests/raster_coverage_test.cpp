@@ -19,7 +19,6 @@ constexpr int side = 64;
 struct Tile {
     std::vector<float> depth = std::vector<float>(side * side, 1.0f);
     std::vector<std::uint32_t> triangle = std::vector<std::uint32_t>(side * side, no_triangle);
-    friend bool operator==(const Tile&, const Tile&) = default;
 };
 
 Tile rasterize(const std::vector<TriangleRecord>& records, const TileRect& rect, Isa isa) {

@@ -65,7 +65,8 @@ std::vector<std::pair<int, int>> regions(const Lit& scene, const LightView& view
     for (int i = 0; i < count; ++i) {
         int x = below(last + 1), y = below(last + 1);
         if (i % 3 == 1) {
-            const int node = 2 << below(std::bit_width(static_cast<unsigned>(last)) - 1);  // in units of 32
+            const int node = 2 << below(static_cast<int>(std::bit_width(static_cast<unsigned>(last))) -
+                                        1);  // in units of 32
             (i % 2 == 0 ? x : y) = (1 + below(std::max(view.width / 32 / node - 1, 1))) * node - 1;
         }
         if (i % 3 == 2) {
