@@ -72,10 +72,12 @@ const TableSpec& render_table() {
                 .or_else(d.exposure_ev),
             choice_key("tone", {"linear", "filmic"}, "Tone curve; linear clips at 1.").or_else("filmic"),
             choice_key("receivers", {"any", "static"},
-                       "Who receives shadows: \"any\" point outside solids, or \"static\": the scene's own "
-                       "surfaces only. "
-                       "What lights use that do not say otherwise.")
-                .or_else("any"),
+                       "Who receives shadows: \"static\", the scene's own surfaces, which is everyone in a "
+                       "picture; or \"any\" point outside solids, for trees that are kept for receivers "
+                       "which the scene does not have, such as moving objects added later. Of \"any\", a "
+                       "map of open surfaces (a plane, leaves, scans) may take a node for every texel. What "
+                       "lights use that do not say otherwise.")
+                .or_else("static"),
         },
         "",
         {}};

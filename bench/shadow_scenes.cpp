@@ -130,6 +130,7 @@ Scene stage_shadows(const ShadowRecipe& recipe, const PictureSize& size) {
     sun.direction = normalize(recipe.sun);
     sun.color = {3, 3, 3};
     sun.shadow.method = ShadowMethod::none;
+    sun.shadow.receivers = Receivers::any;  // as the trees that are built of it
     scene.lights = {sun};
     return scene;
 }

@@ -43,8 +43,9 @@ struct Camera {
 enum class LightKind { directional, sun, point, spot };
 /// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals.
 enum class ShadowMethod { none, map, compressed };
-/// Who receives shadows: `any` point outside solids (the papers' rule), or only the scene's own surfaces,
-/// where the interval of an open crossing may reach up to the next surface.
+/// Who receives shadows: `any` point outside solids (the papers' rule, for trees that are kept for receivers
+/// which the scene does not have), or only the scene's own surfaces, as in every picture of it: then the
+/// interval of an open crossing may reach up to the next surface, and open sheets cost no node per texel.
 enum class Receivers { any, static_only };
 
 /// Which part of a compressed map is built: what the frame's lookups ask for, or everything.
@@ -63,7 +64,7 @@ struct ShadowSettings {
     /// most_map_resolution (compressed); or, compressed only, auto_resolution.
     int resolution = auto_resolution;
     int filter_px = 3;  ///< PCF kernel side: 1, 3 or 5 texels
-    Receivers receivers = Receivers::any;
+    Receivers receivers = Receivers::static_only;
     double normal_offset_texels = 1.5;  ///< bias of receivers on open components only
     // Compressed only.
     ShadowScope scope = ShadowScope::frame;
@@ -105,7 +106,7 @@ struct RenderSettings {
     int samples = 4;                ///< per pixel: 1, 4 or 16
     double exposure_ev = 0.0;       ///< linear radiance is scaled by 2^exposure_ev
     ToneCurve tone = ToneCurve::filmic;
-    Receivers receivers = Receivers::any;
+    Receivers receivers = Receivers::static_only;
 };
 
 enum class Aov { beauty, depth, normal, albedo, object, shadow };

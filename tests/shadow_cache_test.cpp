@@ -56,7 +56,7 @@ TEST(ShadowCache, IsMadeAgainWithANoticeWhenAnythingItDependsOnChanged) {
     ASSERT_EQ(scene.render().code, 0);
     for (const char* change :
          {"mesh.cube.size_m=2.01", "light.lamp.elevation_deg=31", "light.lamp.shadow.resolution=512",
-          "light.lamp.shadow.layout=bytes16", "light.lamp.shadow.receivers=static",
+          "light.lamp.shadow.layout=bytes16", "light.lamp.shadow.receivers=any",
           "light.lamp.shadow.top_levels=3", "mesh.cube.casts_shadow=false"}) {
         const std::string before = scene.map();
         std::string key = change;
