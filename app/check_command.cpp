@@ -78,6 +78,15 @@ std::string tree_text(const Light& light) {
     return out + (s.filter == ShadowFilter::pcf ? "" : ", filtered hierarchically");
 }
 
+/// Whether something casts shadows that is not the outside of a solid.
+bool open_casters(const Mesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const bool casts = mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow;
+        if (casts && !mesh.components[mesh.component[t]].closed) return true;
+    }
+    return false;
+}
+
 /// `light`: its resolution as found.
 std::string light_text(const Light& light, const std::optional<FoundResolution>& found, const Scene& scene) {
     std::string out = fmt::format("light     {}: {}", light.id, kind_text(light.kind));
@@ -92,6 +101,13 @@ std::string light_text(const Light& light, const std::optional<FoundResolution>&
                        light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
     out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(shadow_map_bytes(light)));
     if (found) out += fmt::format("          {}\n", resolution_text(*found));
+    if (found && found->capped) out += fmt::format("note      {}\n", capped_text(light, *found));
+    if (!dense && light.shadow.receivers == Receivers::any && open_casters(scene.mesh)) {
+        out += fmt::format(
+            "note      light '{}': open surfaces under receivers = \"any\": the tree may need {} x {} "
+            "nodes\n",
+            light.id, n, n);
+    }
     return out;
 }
 

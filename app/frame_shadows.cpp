@@ -7,6 +7,7 @@
 #include "app/needed_texels.h"
 #include "app/shadow_cache.h"
 #include "app/shadow_resolution.h"
+#include "app/shadow_text.h"
 #include "app/stopwatch.h"
 #include "core/file_output.h"
 #include "filters/shadow_lookup.h"
@@ -119,6 +120,9 @@ void plan_shadows(const Work& work) {
         if (found[i]) light.shadow.resolution = found[i]->resolution;
         if (used == shadows.size()) shadows.emplace_back();
         LightShadow& shadow = shadows[used++];
+        if (found[i] && found[i]->capped && !(shadow.stats.found && shadow.stats.found->capped)) {
+            work.stats.notices.push_back(capped_text(light, *found[i]));
+        }
         const LightShadowStats fresh = fresh_stats(light, found[i]);
         const bool every_picture =
             light.shadow.method == ShadowMethod::map || light.shadow.scope == ShadowScope::full;

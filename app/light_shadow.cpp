@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/shadow_text.h"
 #include "app/stopwatch.h"
 #include "core/error.h"
 
@@ -48,17 +49,20 @@ std::uint64_t most_nodes(std::int64_t bytes) {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / bytes_per_node);
 }
 
-MultiresTree build_tree(const Mesh& mesh, const Light& light, const LightView& view,
-                        const BuildParams& params, const Exec& exec, LightShadowStats& stats,
+MultiresTree build_tree(const Mesh& mesh, const Light& light, const LightView& view, BuildParams params,
+                        std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
                         const std::atomic<bool>* cancel) {
+    params.max_nodes = most_nodes(left_bytes);
     BuildStats of_view;
     try {
         MultiresTree tree = build_shadow_tree(mesh, view, params, exec, &of_view, cancel);
         add(of_view, stats.build);
         return tree;
     } catch (const LimitError& error) {
-        throw LimitError(fmt::format("light '{}', {} x {} texels: {} (limits.memory_mib says how many)",
-                                     light.id, view.width, view.height, error.what()));
+        throw LimitError(fmt::format(
+            "light '{}', {} x {} texels: {}, more than fit into the {} MiB that limits.memory_mib leaves; {}",
+            light.id, view.width, view.height, error.what(), left_bytes >> 20,
+            smaller_tree_text(light.shadow)));
     }
 }
 
@@ -94,8 +98,8 @@ bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed,
         BuildParams params;
         params.receivers = light.shadow.receivers;
         params.needed = needed == nullptr ? nullptr : &(*needed)[i];
-        params.max_nodes = most_nodes(most_bytes - kept_bytes);
-        const MultiresTree tree = build_tree(mesh, light, views[i], params, exec, shadow.stats, cancel);
+        const MultiresTree tree =
+            build_tree(mesh, light, views[i], params, most_bytes - kept_bytes, exec, shadow.stats, cancel);
         if (stopped(cancel)) {
             shadow.trees.clear();
             return false;

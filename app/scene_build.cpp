@@ -225,6 +225,20 @@ Output output_of(const SceneTable& table) {
     return {aovs.at(text(table, "aov")), text(table, "file")};
 }
 
+/// Refuses shadow caches that cannot be read, at the place that names them.
+void check_caches(const Builder& b) {
+    for (const SceneTable* light : subtables(b.document.root, "light")) {
+        const SceneEntry* cache = subtable(*light, "shadow").find("cache");
+        if (cache == nullptr) continue;
+        const std::string& folder = std::get<std::string>(cache->value.data);
+        try {
+            shadow_cache_folder(b.access, folder);
+        } catch (const InputError& error) {
+            fail_at(cache->value.place, b.document.sources, fmt::format("'{}': {}", folder, error.message));
+        }
+    }
+}
+
 }  // namespace
 
 Scene build_scene(const SceneDocument& document, const FileAccess& access) {
@@ -240,9 +254,7 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     for (const SceneTable* mesh : subtables(document.root, "mesh"))
         add_mesh(b, *mesh);
     set_frame(b.scene, document, scene_frames(document).first);
-    for (const Light& light : b.scene.lights) {
-        if (!light.shadow.cache.empty()) shadow_cache_folder(access, light.shadow.cache);
-    }
+    check_caches(b);
     check_memory(estimate_memory(b.scene), b.limits, document.sources[0]);
     return std::move(b.scene);
 }

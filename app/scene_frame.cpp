@@ -70,7 +70,7 @@ ShadowSettings shadow_of(const SceneTable& table) {
     if (s.method == ShadowMethod::map) return s;
     s.scope = choice<ShadowScope>(table, "scope", {"frame", "full"});
     s.filter = choice<ShadowFilter>(table, "filter", {"pcf", "hierarchical"});
-    s.max_magnification = number(table, "max_magnification");
+    if (table.has("max_magnification")) s.max_magnification = number(table, "max_magnification");
     s.layout = choice<ShadowLayout>(table, "layout", {"words24", "words16", "bytes16"});
     s.top_levels = static_cast<int>(integer(table, "top_levels"));
     if (table.has("cache")) s.cache = text(table, "cache");

@@ -7,9 +7,10 @@ namespace obscura {
 
 KeySpec shadow_cache_key() {
     return file_key(
-        "cache",
-        "Compressed, scope \"full\": folder, relative to the scene file, in which finished maps are "
-        "kept, one file LIGHT.shadowtree per light. It is made when it is not there.");
+               "cache",
+               "Compressed, scope \"full\": folder, relative to the scene file, in which finished maps are "
+               "kept, one file LIGHT.shadowtree per light. It is made when it is not there.")
+        .as_folder();
 }
 
 const TableSpec& shadow_table() {
@@ -33,8 +34,9 @@ const TableSpec& shadow_table() {
                 .one_of({16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768, 65536, 131072,
                          262144, 524288, 1048576})
                 .or_word("auto"),
-            integer_key("filter_px", "Side of the percentage-closer filter, in texels.")
-                .one_of({1, 3, 5})
+            integer_key("filter_px",
+                        "Side of the percentage-closer filter, in texels; with method \"map\" 1, 3 or 5.")
+                .one_of({1, 3, 5, 7, 9, 11, 13, 15})
                 .or_else(std::int64_t{d.filter_px}),
             number_key("normal_offset_texels", "Bias of receivers on open surfaces; solids need none.")
                 .in({0, 100})
@@ -48,7 +50,8 @@ const TableSpec& shadow_table() {
                 "filter", {"pcf", "hierarchical"},
                 "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
                 "keeps distant shadows still when the camera moves; what is thinner than a square, as the "
-                "bars of a distant fence, then casts no shadow. \"pcf\" when not given."),
+                "bars of a distant fence, then casts no shadow unless filter_px is 9 or more. \"pcf\" when "
+                "not given."),
             number_key(
                 "max_magnification",
                 "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "

@@ -13,23 +13,32 @@ using Sources = std::vector<std::string>;
 
 constexpr const char* compressed_keys[] = {"scope",  "filter",     "max_magnification",
                                            "layout", "top_levels", "cache"};
-constexpr std::int64_t dense_default = 4096;
+constexpr std::int64_t dense_default = 4096, most_dense_filter_px = 5;
 
 void set_default(SceneTable& table, const char* key, SceneValue value) {
     if (!table.has(key)) table.set(key, std::move(value));
 }
 
-void complete_dense(SceneTable& settings, const Sources& sources) {
+void refuse_compressed_keys(const SceneTable& settings, const Sources& sources) {
     for (const char* key : compressed_keys) {
         if (settings.has(key)) {
             fail_at(settings.find(key)->place, sources,
                     fmt::format("'{}' needs method = \"compressed\"", key));
         }
     }
+}
+
+void complete_dense(SceneTable& settings, const Sources& sources) {
     set_default(settings, "resolution", value_of(dense_default));
     const SceneValue& resolution = settings.find("resolution")->value;
     if (std::holds_alternative<std::string>(resolution.data)) {
         fail_at(resolution.place, sources, "'resolution' = \"auto\" needs method = \"compressed\"");
+    }
+    const SceneValue& filter = settings.find("filter_px")->value;
+    if (std::get<std::int64_t>(filter.data) > most_dense_filter_px) {
+        fail_at(filter.place, sources,
+                fmt::format("'filter_px' must be 1, 3 or 5 with method = \"map\", not {}",
+                            std::get<std::int64_t>(filter.data)));
     }
     if (std::get<std::int64_t>(resolution.data) > most_dense_resolution) {
         fail_at(resolution.place, sources,
@@ -50,7 +59,13 @@ void complete_compressed(SceneTable& settings, const SceneEntry* cache, const So
     set_default(settings, "resolution", value_of("auto"));
     set_default(settings, "scope", value_of(settings.has("cache") ? "full" : "frame"));
     set_default(settings, "filter", value_of("pcf"));
-    set_default(settings, "max_magnification", value_of(d.max_magnification));
+    const bool automatic = std::holds_alternative<std::string>(settings.find("resolution")->value.data);
+    if (automatic) {
+        set_default(settings, "max_magnification", value_of(d.max_magnification));
+    } else if (settings.has("max_magnification")) {
+        fail_at(settings.find("max_magnification")->place, sources,
+                "'max_magnification' needs resolution = \"auto\"");
+    }
     set_default(settings, "layout", value_of("words24"));
     set_default(settings, "top_levels", value_of(std::int64_t{d.top_levels}));
 }
@@ -95,6 +110,7 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
         auto& settings = std::get<SceneTable>(light.find("shadow")->value.data);
         set_default(settings, "receivers", value_of(text(subtable(root, "render"), "receivers").c_str()));
         const std::string method = text(settings, "method");
+        if (method != "compressed") refuse_compressed_keys(settings, sources);
         if (method == "map") complete_dense(settings, sources);
         if (method == "compressed") complete_compressed(settings, cache, sources);
         order_keys(settings);

@@ -46,6 +46,7 @@ struct KeySpec {
     std::string doc;
     bool required = false;
     bool animated = false;  ///< frames can set it
+    bool folder = false;    ///< files: the text names a folder
     Range range;
     std::vector<std::string> choices;
     std::vector<std::int64_t> allowed;  ///< integers: exactly these, when not empty
@@ -57,6 +58,7 @@ struct KeySpec {
     // A key reads as a sentence: number("vfov_deg", "...").in(Range{0, 180, true, true}).animate().
     KeySpec&& need() && { return required = true, std::move(*this); }
     KeySpec&& animate() && { return animated = true, std::move(*this); }
+    KeySpec&& as_folder() && { return folder = true, std::move(*this); }
     KeySpec&& in(Range r) && { return range = r, std::move(*this); }
     KeySpec&& one_of(std::vector<std::int64_t> values) && {
         return allowed = std::move(values), std::move(*this);

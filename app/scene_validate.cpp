@@ -145,7 +145,8 @@ SceneValue checked_text(const KeySpec& key, const SceneValue& value, const Sourc
     if (s == nullptr) wrong_type(key, value, sources);
     if (key.type == KeyType::name) check_name(*s, fmt::format("'{}'", key.name), value.place, sources);
     if (key.type == KeyType::file && (s->empty() || s->find('\0') != std::string::npos)) {
-        fail_at(value.place, sources, fmt::format("'{}' must name a file", key.name));
+        fail_at(value.place, sources,
+                fmt::format("'{}' must name a {}", key.name, key.folder ? "folder" : "file"));
     }
     if (key.type == KeyType::choice &&
         std::find(key.choices.begin(), key.choices.end(), *s) == key.choices.end()) {

@@ -84,7 +84,14 @@ TreeFileKey shadow_key(const TreeFileKey& geometry, const Light& light, const st
 }
 
 std::vector<ShadowTree> load_shadow_cache(const fs::path& file, const TreeFileKey& key, std::string& notice) {
-    CachedTrees cached = read_cached_trees(file, key);
+    const auto read = [&] {
+        try {
+            return read_cached_trees(file, key);
+        } catch (const InputError& error) {
+            throw InputError(error.file, error.message + "; when it is deleted, a new one is made");
+        }
+    };
+    CachedTrees cached = read();
     notice.clear();
     switch (cached.state) {
         case CacheState::usable:

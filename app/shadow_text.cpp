@@ -17,6 +17,23 @@ std::string resolution_text(const FoundResolution& found) {
                        found.capped ? "capped, a" : "a", found.magnification, found.x, found.y);
 }
 
+std::string capped_text(const Light& light, const FoundResolution& found) {
+    return fmt::format(
+        "light '{}': auto resolution ends at {} x {} texels, the most there are, and one still spans {:.3g} "
+        "pixels at ({}, {}), above max_magnification {:.3g}",
+        light.id, found.resolution, found.resolution, found.magnification, found.x, found.y,
+        light.shadow.max_magnification);
+}
+
+std::string smaller_tree_text(const ShadowSettings& shadow) {
+    std::string ways = "lower its resolution or raise max_magnification";
+    if (shadow.scope == ShadowScope::full) ways += ", build only what the frame needs (scope = \"frame\")";
+    if (shadow.receivers == Receivers::any) {
+        ways += ", let open surfaces shade the scene alone (receivers = \"static\")";
+    }
+    return ways + ", or use a dense map (method = \"map\")";
+}
+
 std::string shadow_text(const LightShadowStats& s) {
     std::string out = fmt::format("  light {}: ", s.light);
     if (s.views > 1) out += fmt::format("{} maps of ", s.views);

@@ -63,7 +63,7 @@ struct ShadowSettings {
     /// Texels per side, a power of two from least_map_resolution to most_dense_resolution (map) or
     /// most_map_resolution (compressed); or, compressed only, auto_resolution.
     int resolution = auto_resolution;
-    int filter_px = 3;  ///< PCF kernel side: 1, 3 or 5 texels
+    int filter_px = 3;  ///< PCF kernel side in texels, odd: to 5 (map) or 15 (compressed)
     Receivers receivers = Receivers::static_only;
     double normal_offset_texels = 1.5;  ///< bias of receivers on open components only
     // Compressed only.

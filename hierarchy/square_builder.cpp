@@ -23,10 +23,7 @@ bool dense(std::int32_t side, std::size_t count, const BuildTuning& tuning) {
 
 void NodeBudget::take(std::uint64_t nodes) {
     if (used.fetch_add(nodes, std::memory_order_relaxed) + nodes <= most) return;
-    throw LimitError(
-        fmt::format("a shadow map's tree passes {} nodes; lower its resolution, build only what the frame "
-                    "needs, or let open surfaces shade the scene alone (receivers = \"static\")",
-                    most));
+    throw LimitError(fmt::format("a shadow tree passes {} nodes", most));
 }
 
 Site Site::child(int i) const {

@@ -86,6 +86,7 @@ TEST(ShadowCache, RefusesFilesThatAreCutAlteredOrForeign) {
         const Outcome run = scene.render();
         EXPECT_EQ(run.code, 3) << run.err;
         EXPECT_NE(run.err.find("lamp.shadowtree"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("when it is deleted, a new one is made"), std::string::npos) << run.err;
         EXPECT_EQ(scene.map(), bad) << "written to";
     }
     std::filesystem::remove(scene.folder / "maps/lamp.shadowtree");
@@ -118,6 +119,7 @@ TEST(ShadowCache, LiesWhereScenesMayRead) {
     const Outcome refused = scene.render({"-D", key});
     EXPECT_EQ(refused.code, 3);
     EXPECT_NE(refused.err.find("leads outside"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find(":1:"), std::string::npos) << refused.err;  // where the key is
     EXPECT_TRUE(elsewhere.listing().empty());
     ASSERT_EQ(scene.render({"-D", key, "--allow-path", elsewhere.path.string()}).code, 0);
     EXPECT_EQ(elsewhere.listing(), (std::vector<std::string>{"lamp.shadowtree"}));
