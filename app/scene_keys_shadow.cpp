@@ -50,8 +50,8 @@ const TableSpec& shadow_table() {
                 "filter", {"pcf", "hierarchical"},
                 "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
                 "keeps distant shadows still when the camera moves; what is thinner than a square, as the "
-                "bars of a distant fence, then casts no shadow unless filter_px is 9 or more. \"pcf\" when "
-                "not given."),
+                "bars of a distant fence, then casts less of a shadow or none. A larger filter_px, whose "
+                "squares are smaller, keeps more of it. \"pcf\" when not given."),
             number_key(
                 "max_magnification",
                 "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "
