@@ -18,9 +18,9 @@ std::string chart_head(const PanelChart& chart, double width, double height) {
         "set label 1 {} at screen 0.5,{:.4f} center font ',17'\n"
         "set label 2 {} at screen 0.5,{:.4f} center tc rgb '#333333'\n"
         "set logscale xy\nset format y '%g'\nset tics nomirror\nset border 3 lc rgb '#888888'\n"
-        "set grid lt 1 lc rgb '#dddddd' lw 0.6\nset key bottom left samplen 1\n{}\n",
+        "set grid lt 1 lc rgb '#dddddd' lw 0.6\nset key {} samplen 1\n{}\n",
         width, height, gnuplot_text(chart.title), 1 - 26 / height, gnuplot_text(chart.note), 1 - 50 / height,
-        chart.x_tics);
+        chart.key, chart.x_tics);
 }
 
 /// Data and the plot command of panel `i`.

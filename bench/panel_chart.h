@@ -37,9 +37,10 @@ struct PanelChart {
     std::string title, note, x_label, y_label;
     std::string x_tics;  ///< gnuplot commands for the axis
     std::vector<Panel> panels;
-    int columns = 3;         ///< at most
-    int panel_height = 290;  ///< pixels
-    bool one_key = false;    ///< a key on the first panel alone, and x labels on the last row alone
+    std::string key = "bottom left";  ///< the corner that curves leave free
+    int columns = 3;                  ///< at most
+    int panel_height = 290;           ///< pixels
+    bool one_key = false;             ///< a key on the first panel alone, and x labels on the last row alone
 };
 
 /// The script that draws it, for run_gnuplot().

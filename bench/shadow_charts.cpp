@@ -41,6 +41,7 @@ PanelChart accuracy_chart(const std::vector<AccuracyRow>& rows,
 PanelChart tree_chart(const std::vector<SizeRow>& rows) {
     PanelChart chart;
     chart.title = "Memory of trees and of dense maps";
+    chart.key = "top left";
     chart.note = "Four bytes per texel of dense maps; both axes logarithmic.";
     chart.x_label = "texels a side";
     chart.y_label = "MB";
@@ -142,6 +143,7 @@ void draw_shadow_charts(const ShadowResults& results, const BenchOptions& option
         results.accuracy, [](const AccuracyRow& row) { return static_cast<double>(row.bytes) * 1e-6; });
     by_bytes.title = "Wrong shadows against memory";
     by_bytes.note = by_size.note;
+    by_bytes.key = "top right";
     by_bytes.x_label = "MB";
     by_bytes.x_tics = "set format x '%g'";
     if (!by_size.panels.empty()) {

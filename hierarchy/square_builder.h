@@ -32,7 +32,8 @@ struct Site {
     bool value_only() const;
 };
 
-/// Takes part in nothing: any depth will do (the paper's placeholder, section 4).
+/// The interval of squares that nothing needs: every depth lies in it, so it never decides its parent's
+/// (paper, section 4, does the same for maps that a stack lacks).
 constexpr DepthInterval any_depth{0.0f, 1.0f};
 
 /// How many nodes all threads together may make.
