@@ -40,7 +40,7 @@ struct PanelChart {
     std::string key = "bottom left";  ///< the corner that curves leave free
     int columns = 3;                  ///< at most
     int panel_height = 290;           ///< pixels
-    bool one_key = false;             ///< a key on the first panel alone, and x labels on the last row alone
+    bool one_key = false;             ///< keys on the first row alone, and x labels on the last
 };
 
 /// The script that draws it, for run_gnuplot().

@@ -143,7 +143,7 @@ void draw_shadow_charts(const ShadowResults& results, const BenchOptions& option
         results.accuracy, [](const AccuracyRow& row) { return static_cast<double>(row.bytes) * 1e-6; });
     by_bytes.title = "Wrong shadows against memory";
     by_bytes.note = by_size.note;
-    by_bytes.key = "top right";
+    by_bytes.one_key = true;  // no corner is free in all panels
     by_bytes.x_label = "MB";
     by_bytes.x_tics = "set format x '%g'";
     if (!by_size.panels.empty()) {
