@@ -1,0 +1,69 @@
+#pragma once
+// Fresnel diffraction: the light at a distance z behind an aperture that a unit plane wave meets,
+//
+//     U(x', y') = 1 / (i lambda z)  *  integral of  f(x, y) e^(i pi ((x - x')^2 + (y - y')^2) / (lambda z))
+//
+// (without e^(ikz)). Without an aperture U = 1. The integral over a texel is a product of differences of
+// Fresnel integrals, so every texel and every run of texels is exact.
+//
+// L. Scandolo: thesis, 2019, section 3.4.5, equations 3.18 to 3.24 (3.22 and 3.23 lack their lower limits).
+
+#include <cstdint>
+#include <string>
+
+#include "core/isa.h"
+#include "optics/aperture.h"
+#include "optics/field.h"
+
+namespace obscura {
+
+/// Positions of pixel centres, in texels from the mask's centre: first_x + x step, first_y + y step.
+struct PlaneGrid {
+    int width = 0, height = 0;
+    double first_x = 0, first_y = 0;
+    double step = 0;
+};
+
+/// `size` pixels over a square of `extent_texels`, centred on the mask.
+PlaneGrid centred_plane(int size, double extent_texels);
+
+enum class NearFieldMethod {
+    automatic,
+    direct,    ///< every quad at every pixel (3.19)
+    two_pass,  ///< the paper's: factors of every quad tabulated per axis, then summed
+    edges,     ///< one matrix product over the distinct columns where the mask changes
+    hybrid,    ///< runs by their ends in one axis, one-dimensional FFT convolution in the other
+    fft,       ///< two-dimensional FFT convolution with the texel-integrated kernel, padded to twice the size
+};
+const char* near_field_method_name(NearFieldMethod method);
+
+struct NearFieldParams {
+    double wavelength_m = 550e-9;
+    double distance_m = 0;  ///< z > 0
+    NearFieldMethod method = NearFieldMethod::automatic;
+    double cull = 0;  ///< blocks of 8 x 8 pixels whose sampled power is below this share of 1 become 0
+};
+
+struct NearFieldReport {
+    NearFieldMethod method = NearFieldMethod::automatic;
+    double cost_ms = 0;
+    std::string reason;
+    std::int64_t quads = -1, edges = -1;
+};
+
+/// a^2 / (lambda z), a = half the mask's larger side.
+double fresnel_number(const Aperture& aperture, const NearFieldParams& params);
+
+NearFieldReport plan_near_field(const Aperture& aperture, const PlaneGrid& grid,
+                                const NearFieldParams& params);
+
+/// U over the plane; error below 2e-6 for Fresnel numbers up to 50. Throws InputError for z <= 0.
+Field near_field(const Aperture& aperture, const PlaneGrid& grid, const NearFieldParams& params,
+                 const Exec& exec, NearFieldReport* report = nullptr);
+
+/// |U|^2: intensity relative to the unobstructed wave.
+Image<float> near_field_intensity(const Aperture& aperture, const PlaneGrid& grid,
+                                  const NearFieldParams& params, const Exec& exec,
+                                  NearFieldReport* report = nullptr);
+
+}  // namespace obscura
