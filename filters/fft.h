@@ -16,9 +16,15 @@ namespace obscura {
 /// What kernels read of a plan. POD.
 struct FftTable {
     int log2_length = 0;
-    const float* re = nullptr;  ///< twiddles, laid out as the passes read them
+    /// Twiddles e^(-2 pi i j k / n) of a radix-4 pass of length n, n = length, length/4, ...: at
+    /// fft_pass_offset(n) + 3 k + j - 1 for j = 1, 2, 3 and k < n/4.
+    const float* re = nullptr;
     const float* im = nullptr;
 };
+/// The passes of lengths n/4, n/16, ... fill what is before.
+constexpr int fft_pass_offset(int n) {
+    return n / 4 - 1;
+}
 
 /// Twiddles of one length, rounded from double, and the order of the coefficients.
 struct FftPlan {
