@@ -1,0 +1,16 @@
+#pragma once
+// The area of every texel that an outline leaves open.
+
+#include "core/image.h"
+#include "optics/aperture.h"
+
+namespace obscura {
+
+/// Share of each texel of a width x height mask where the outline's winding number is positive, in [0, 1]:
+/// exact areas of trapezoids in double, no samples. Texels touched by nothing are exactly 0 or 1 (areas below
+/// 1e-9 count as 0). Parts outside the mask are cut off. Where a mask differs from its mirror image nowhere
+/// by more than rounding (2^-22), it is made its mirror image bit for bit. Outline::disjoint is believed:
+/// then nothing is sorted and the loops' signed areas just add up.
+Image<float> coverage_of(const Outline& outline, int width, int height);
+
+}  // namespace obscura
