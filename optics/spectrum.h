@@ -1,8 +1,6 @@
 #pragma once
 // Light by wavelength, and what the eye makes of it.
 
-#include <array>
-#include <string>
 #include <vector>
 
 #include "core/vec.h"
@@ -12,35 +10,63 @@ namespace obscura {
 constexpr double shortest_visible_nm = 380, longest_visible_nm = 780;
 
 /// CIE 1931 2-degree observer, the multi-lobe fit of C. Wyman, P.-P. Sloan, P. Shirley: Simple analytic
-/// approximations to the CIE XYZ color matching functions, JCGT 2(2), 2013.
+/// approximations to the CIE XYZ color matching functions, JCGT 2(2), 2013. Within 0.014 of the standard's
+/// table everywhere (whose values reach 1.77); never negative between 380 and 780 nm.
 Vec3d observer_xyz(double wavelength_nm);
 
 enum class LightSource { d65, equal, blackbody, sodium, rgb_led, monochromatic };
 
 struct LightSpectrum {
     LightSource source = LightSource::d65;
-    double kelvin = 6500;        ///< blackbody
-    double wavelength_nm = 550;  ///< monochromatic
+    double kelvin = 6500;        ///< blackbody, [500, 1e6]
+    double wavelength_nm = 550;  ///< monochromatic, [380, 780]
 };
 
-/// Relative radiant power at a wavelength, of any scale; lines (sodium) have a stated width.
+/// Relative radiant power per nanometre, of any scale; zero outside 380 to 780 nm.
+///  - d65: CIE daylight, its table at 10 nm joined by straight lines, as the standard's 5 nm table is;
+///  - blackbody: Planck's law;
+///  - sodium: the D lines 588.995 and 589.592 nm, 2 : 1, Gaussians of 0.05 nm standard deviation;
+///  - rgb_led: Gaussians at 465, 525 and 630 nm, 22, 33 and 18 nm wide at half height, balanced to the
+///    white of D65;
+///  - monochromatic: a Gaussian of 0.05 nm standard deviation.
 double spectral_power(const LightSpectrum& light, double wavelength_nm);
 
-/// One wavelength of a quadrature and the linear sRGB colour that unit power density there adds. The colours
-/// of all samples add up to the light's own colour with luminance 1.
+/// The light's own tristimulus values, Y = 1. D65 gives the white of sRGB exactly: X and Z of the observer
+/// are scaled (by 1.0009 and 1.0011) to make up for what the fit lacks there, here and in spectral_samples().
+Vec3d light_xyz(const LightSpectrum& light);
+
+/// One wavelength of a quadrature, and the colour that a pattern of unit power at this wavelength adds.
 struct SpectralSample {
     double wavelength_nm = 0;
-    Vec3d rgb;
+    Vec3d xyz;
+    Vec3d rgb;  ///< the same in linear sRGB; channels may be negative, single wavelengths lie outside
 };
 
-/// `count` samples, evenly spaced (fewer for lines).
+/// At most `count` >= 1 samples, at the middles of equal steps of 1 / wavelength: at a point of a pattern
+/// that scales with wavelength, fringes pass at an even rate so. Samples that hardly show (below 1e-3 of the
+/// strongest) are left out; lines are one sample each. The colours of all samples add up to the light's own,
+/// luminance 1, for every count.
 std::vector<SpectralSample> spectral_samples(const LightSpectrum& light, int count);
 
-/// XYZ (Y = 1 is white) to linear sRGB and back (IEC 61966-2-1, D65).
+/// How finely a light must be sampled. With s = 550 / wavelength_nm, the interval of s in which the light
+/// shows, and the number of samples per unit of s with which a pattern that passes `cycles_per_scale` fringes
+/// while s grows by 1 comes out with errors below `tolerance` of its colour. 0 samples: lines, all are taken.
+struct SpectralRate {
+    double least_scale = 0, largest_scale = 0;
+    double samples_per_scale = 0;
+    int count = 0;  ///< samples over the interval, at least 1
+};
+SpectralRate spectral_rate(const LightSpectrum& light, double cycles_per_scale, double tolerance);
+
+/// XYZ (Y = 1 is white) to linear sRGB and back (IEC 61966-2-1, white D65).
 Vec3d srgb_from_xyz(Vec3d xyz);
 Vec3d xyz_from_srgb(Vec3d rgb);
 
-/// Colours outside the sRGB gamut move towards the grey of their own luminance until no channel is negative.
+/// Y of a linear sRGB colour.
+double srgb_luminance(Vec3d rgb);
+
+/// Colours outside the sRGB gamut move towards the grey of their own luminance until no channel is negative;
+/// others stay. Luminance is kept; colours without luminance become black.
 Vec3d into_gamut(Vec3d rgb);
 
 }  // namespace obscura
