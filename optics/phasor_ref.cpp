@@ -1,0 +1,39 @@
+// Phasors and the transforms of intervals, one at a time.
+
+#include "optics/phasor.h"
+#include "optics/phasor_scalar.h"
+
+namespace obscura::ref {
+
+void phasors(const double* turns, int count, float* re, float* im) noexcept {
+    for (int j = 0; j < count; ++j) {
+        const Phasor p = phasor(turns[j]);
+        re[j] = p.re;
+        im[j] = p.im;
+    }
+}
+
+void phasor_row(const FrequencyRamp& ramp, double x, float* re, float* im) noexcept {
+    for (int j = 0; j < ramp.count; ++j) {
+        const Phasor p = phasor((ramp.first + j * ramp.step) * x);
+        re[j] = p.re;
+        im[j] = p.im;
+    }
+}
+
+void box_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re, float* im) noexcept {
+    for (int k = 0; k < terms.count; ++k) {
+        for (int l = 0; l < 16; ++l) {
+            const double u = ramp.first + (offset + l) * ramp.step;
+            Phasor sum;
+            for (std::int32_t r = terms.begin[k]; r < terms.begin[k + 1]; ++r) {
+                const Phasor box = box_transform(u, terms.x0[r], terms.x1[r], terms.weight[r]);
+                sum = {sum.re + box.re, sum.im + box.im};
+            }
+            re[16 * k + l] = sum.re;
+            im[16 * k + l] = sum.im;
+        }
+    }
+}
+
+}  // namespace obscura::ref
