@@ -5,9 +5,13 @@
 #include <cstdint>
 
 #include "optics/far_field.h"
+#include "optics/quads.h"
 
 namespace obscura {
 
 double far_field_direct_cost_ns(std::int64_t quads, const FrequencyGrid& grid);
+double far_field_gemm_cost_ns(const QuadList& quads, const FrequencyGrid& grid);
+/// Decomposes the mask to count its distinct columns (about a nanosecond a texel).
+double far_field_edges_cost_ns(ImageView<const float> mask, const FrequencyGrid& grid);
 
 }  // namespace obscura

@@ -65,6 +65,28 @@ TEST(FarFieldDirect, SameBitsEverywhere) {
     expect_same_bits(direct);
 }
 
+void gemm(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
+          const Exec& exec) {
+    far_field_gemm(texel_quads(mask), grid, target, exec);
+}
+void edges(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
+           const Exec& exec) {
+    far_field_edges(mask, grid, 0, target, exec, nullptr);
+}
+
+TEST(FarFieldGemm, IsExact) {
+    expect_exact(gemm);
+}
+TEST(FarFieldGemm, SameBitsEverywhere) {
+    expect_same_bits(gemm);
+}
+TEST(FarFieldEdges, IsExact) {
+    expect_exact(edges);
+}
+TEST(FarFieldEdges, SameBitsEverywhere) {
+    expect_same_bits(edges);
+}
+
 TEST(SeparableTerms, GiveTheMaskBack) {
     std::vector<NamedMask> masks = odd_masks();
     for (NamedMask& shape : four_shapes(64))

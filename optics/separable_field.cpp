@@ -1,0 +1,110 @@
+// The far field of separable terms.
+
+#include "optics/separable_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/buffer.h"
+#include "core/parallel.h"
+#include "optics/product.h"
+
+namespace obscura {
+namespace {
+
+/// True when every term is an even function: its transform is real.
+bool all_even(const IntervalTerms& terms) {
+    for (std::size_t k = 0; k + 1 < terms.begin.size(); ++k) {
+        auto low = static_cast<std::size_t>(terms.begin[k]),
+             high = static_cast<std::size_t>(terms.begin[k + 1]);
+        while (low < high) {
+            --high;
+            if (terms.x0[low] != -terms.x1[high] || terms.weight[low] != terms.weight[high]) return false;
+            ++low;
+        }
+    }
+    return true;
+}
+
+/// Transforms of all terms at all frequencies of a ramp, in panels of sixteen.
+struct Factors {
+    Buffer<float> re, im;
+    bool real = false;
+    const float* imaginary() const { return real ? nullptr : im.data(); }
+};
+
+int panels_for(int count) {
+    return (count + product_tile - 1) / product_tile;
+}
+
+Factors factors_of(const IntervalTerms& terms, const FrequencyRamp& ramp, const Exec& exec) {
+    const auto panels = static_cast<std::size_t>(panels_for(ramp.count));
+    const std::size_t size = static_cast<std::size_t>(terms.count()) * product_tile;
+    Factors factors;
+    factors.re.reset(panels * size);
+    factors.im.reset(panels * size);
+    factors.real = all_even(terms);
+    parallel_for(panels, exec, [&](std::size_t p) {
+        OBSCURA_DISPATCH(exec.isa, box_panel, ramp, static_cast<int>(p) * product_tile, terms.view(),
+                         factors.re.data() + p * size, factors.im.data() + p * size);
+    });
+    return factors;
+}
+
+/// Frequencies of the rows that are computed: from v = 0 on where rows come in pairs.
+FrequencyRamp row_ramp(const FrequencyGrid& grid) {
+    const int middle = mirror_row(grid);
+    if (middle < 0) return {grid.first_v, grid.step_v, grid.height};
+    return {0, grid.step_v, std::max(middle, grid.height - 1 - middle) + 1};
+}
+
+}  // namespace
+
+int mirror_row(const FrequencyGrid& grid) {
+    const double row = std::floor(0.5 - grid.first_v / grid.step_v);
+    if (!(row >= 0 && row < grid.height)) return -1;
+    return std::fabs(grid.first_v + row * grid.step_v) <= 1e-10 * grid.step_v ? static_cast<int>(row) : -1;
+}
+
+int products_needed(const SeparableTerms& terms) {
+    return (all_even(terms.x) ? 1 : 2) * (all_even(terms.y) ? 1 : 2);
+}
+
+void separable_field(const SeparableTerms& terms, const FrequencyGrid& grid, const SeparableParams& params,
+                     const FieldTarget& target, const Exec& exec) {
+    CHECK(target.stride >= grid.width);
+    CHECK(!params.add || (target.re != nullptr && target.im != nullptr));
+    const FrequencyRamp rows = row_ramp(grid), columns{grid.first_u, grid.step_u, grid.width};
+    const Factors a = factors_of(terms.y, rows, exec), b = factors_of(terms.x, columns, exec);
+    const ProductPanels panels{a.re.data(), a.imaginary(), b.re.data(), b.imaginary(), terms.count()};
+
+    ProductTarget to{target.re, target.im, target.power, target.stride, grid.width, grid.height};
+    to.mirrored = mirror_row(grid) >= 0;
+    to.origin = to.mirrored ? mirror_row(grid) : 0;
+    to.add = params.add;
+    if (params.blocks != nullptr) {
+        to.active = params.blocks->active.data();
+        to.active_stride = params.blocks->columns;
+    }
+
+    // Two panels of rows meet every panel of columns while that is in the cache.
+    const int row_panels = panels_for(rows.count), column_panels = panels_for(columns.count);
+    parallel_for(static_cast<std::size_t>((row_panels + 1) / 2), exec, [&](std::size_t item) {
+        const int first = static_cast<int>(item) * 2;
+        for (int c = 0; c < column_panels; ++c) {
+            for (int r = first; r < std::min(first + 2, row_panels); ++r)
+                OBSCURA_DISPATCH(exec.isa, product, panels, to, r, c);
+        }
+    });
+}
+
+double separable_cost_ns(const SeparableTerms& terms, const FrequencyGrid& grid) {
+    const double rows = row_ramp(grid).count, columns = grid.width;
+    const double intervals_x = static_cast<double>(terms.x.x0.size()),
+                 intervals_y = static_cast<double>(terms.y.x0.size());
+    const double pixels = static_cast<double>(grid.width) * grid.height;
+    return 0.025 * products_needed(terms) * terms.count() * rows * columns +
+           1.0 * (intervals_x * columns + intervals_y * rows) + 0.3 * pixels + 5000;
+}
+
+}  // namespace obscura
