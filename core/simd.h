@@ -18,3 +18,4 @@
 #include "core/simd_convert.h"
 #include "core/simd_gather.h"
 #include "core/simd_lanes.h"
+#include "core/simd_transpose.h"

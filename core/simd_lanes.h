@@ -103,6 +103,22 @@ OBSCURA_INLINE void store_interleaved(float* p, const F32& a, const F32& b) {
     }
 #endif
 }
+/// Lane 15 first, lane 0 last.
+OBSCURA_INLINE F32 reverse(const F32& a) {
+    F32 v;
+#if defined(OBSCURA_ISA_avx512bw)
+    const __m512i order = _mm512_set_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    v.r[0] = F32::Reg(_mm512_permutexvar_ps(order, a.r[0]));
+#elif defined(OBSCURA_ISA_avx2)
+    const __m256i order = _mm256_set_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    for (int k = 0; k < 2; ++k)
+        v.r[k] = F32::Reg(_mm256_permutevar8x32_ps(a.r[1 - k], order));
+#else
+    for (int k = 0; k < 4; ++k)
+        v.r[k] = F32::Reg(_mm_shuffle_ps(a.r[3 - k], a.r[3 - k], _MM_SHUFFLE(0, 1, 2, 3)));
+#endif
+    return v;
+}
 /// 0, 1, ..., 15.
 OBSCURA_INLINE I32 lane_index() {
     alignas(64) static constexpr std::int32_t index[16] = {0, 1, 2,  3,  4,  5,  6,  7,

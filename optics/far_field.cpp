@@ -1,0 +1,92 @@
+// From an aperture and a grid to a field: the method that the planner names, once over what is not mirrored.
+
+#include "optics/far_field.h"
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "optics/far_field_methods.h"
+#include "optics/half_plane.h"
+
+namespace obscura {
+namespace {
+
+void check_grid(const FrequencyGrid& grid) {
+    CHECK(grid.width > 0 && grid.height > 0 && grid.step_u > 0 && grid.step_v > 0);
+    CHECK(std::isfinite(grid.first_u) && std::isfinite(grid.first_v));
+}
+
+FarFieldReport compute(const Aperture& aperture, const FrequencyGrid& grid, const FarFieldParams& params,
+                       const FieldTarget& target, const Exec& exec) {
+    FarFieldReport report = plan_far_field(aperture, grid, params);
+    const auto mask = aperture.mask.view();
+    switch (report.method) {
+        default:
+            throw InputError("far field", "this method is not there");
+        case FarFieldMethod::edges:
+            far_field_edges(mask, grid, params.cull, target, exec, &report);
+            break;
+        case FarFieldMethod::runs:
+            far_field_runs(mask, grid, target, exec);
+            break;
+        case FarFieldMethod::raster_fft:
+            far_field_raster_fft(mask, grid, target, exec);
+            break;
+    }
+    return report;
+}
+
+/// The whole grid, or that part of it whose mirror images are the rest.
+FarFieldReport compute_mirrored(const Aperture& aperture, const FrequencyGrid& grid,
+                                const FarFieldParams& params, Image<float>* re, Image<float>* im,
+                                Image<float>* power, const Exec& exec) {
+    const auto half = params.symmetry ? half_plane(aperture, grid, params) : std::nullopt;
+    const auto target_of = [&](Image<float>* a, Image<float>* b, Image<float>* c, int width) {
+        return FieldTarget{a ? a->pixels.data() : nullptr, b ? b->pixels.data() : nullptr,
+                           c ? c->pixels.data() : nullptr, width};
+    };
+    if (!half) return compute(aperture, grid, params, target_of(re, im, power, grid.width), exec);
+    const auto part = [&](const Image<float>* wanted) {
+        return wanted != nullptr ? Image<float>(half->grid.width, half->grid.height) : Image<float>();
+    };
+    Image<float> part_re = part(re), part_im = part(im), part_power = part(power);
+    const FarFieldReport report = compute(aperture, half->grid, params,
+                                          target_of(re ? &part_re : nullptr, im ? &part_im : nullptr,
+                                                    power ? &part_power : nullptr, half->grid.width),
+                                          exec);
+    if (re != nullptr) unfold(*half, part_re.view(), 1, *re, exec);
+    if (im != nullptr) unfold(*half, part_im.view(), -1, *im, exec);
+    if (power != nullptr) unfold(*half, part_power.view(), 1, *power, exec);
+    return report;
+}
+
+}  // namespace
+
+Field far_field(const Aperture& aperture, const FrequencyGrid& grid, const FarFieldParams& params,
+                const Exec& exec, FarFieldReport* report) {
+    check_grid(grid);
+    Field field{Image<float>(grid.width, grid.height), Image<float>(grid.width, grid.height)};
+    const FarFieldReport done = compute_mirrored(aperture, grid, params, &field.re, &field.im, nullptr, exec);
+    if (report != nullptr) *report = done;
+    return field;
+}
+
+Image<float> far_field_power(const Aperture& aperture, const FrequencyGrid& grid,
+                             const FarFieldParams& params, const Exec& exec, FarFieldReport* report) {
+    check_grid(grid);
+    Image<float> power(grid.width, grid.height);
+    const FarFieldReport done = compute_mirrored(aperture, grid, params, nullptr, nullptr, &power, exec);
+    if (report != nullptr) *report = done;
+    return power;
+}
+
+void far_field_into(const Aperture& aperture, const FrequencyGrid& grid, const FarFieldParams& params,
+                    const FieldTarget& target, const Exec& exec, FarFieldReport* report) {
+    check_grid(grid);
+    CHECK(target.stride >= grid.width);
+    const FarFieldReport done = compute(aperture, grid, params, target, exec);
+    if (report != nullptr) *report = done;
+}
+
+}  // namespace obscura

@@ -1,0 +1,40 @@
+#include "optics/natural_transform.h"
+
+namespace obscura {
+namespace {
+
+void fill_steps(const UnitRoots& roots, int first, int last, std::vector<float>& re, std::vector<float>& im) {
+    const std::int64_t wrap = static_cast<std::int64_t>(roots.re.size()) - 1;
+    for (int x = first; x <= last; ++x) {
+        for (int lane = 0; lane < 16; ++lane) {
+            const auto at = static_cast<std::size_t>((std::int64_t{x} * lane) & wrap);
+            re.push_back(roots.re[at]);
+            im.push_back(roots.im[at]);
+        }
+    }
+}
+
+}  // namespace
+
+NaturalTransform natural_transform(int width, int height, const NaturalGrid& grid) {
+    NaturalTransform t;
+    t.grid = grid;
+    t.width = width;
+    t.height = height;
+    t.u_plan = fft_plan(grid.u.log2_period);
+    t.v_plan = fft_plan(grid.v.log2_period);
+    t.roots = unit_roots(grid.u.log2_period);
+    fill_steps(t.roots, 0, width, t.step_re, t.step_im);
+    fill_steps(t.roots, -(width / 2), width - width / 2, t.mirror_step_re, t.mirror_step_im);
+    t.u_texel = texel_factors(grid.u, width);
+    t.v_texel = texel_factors(grid.v, height);
+    const AxisFactors u_edge = edge_factors(grid.u, width);
+    for (int group = 0; group < column_groups(grid.u); ++group) {
+        t.texel_strips.push_back(complex_strips(grid.u, group, t.u_texel));
+        t.edge_strips.push_back(complex_strips(grid.u, group, u_edge));
+        t.mirror_strips.push_back(mirror_strips(grid.u, group));
+    }
+    return t;
+}
+
+}  // namespace obscura

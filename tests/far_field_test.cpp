@@ -1,0 +1,76 @@
+// The far field on natural grids, and what mirrors it: against the definition in double.
+
+#include "optics/far_field.h"
+
+#include <gtest/gtest.h>
+
+#include "far_field_oracle.h"
+#include "optics/far_field_methods.h"
+
+namespace obscura {
+namespace {
+
+using namespace far_field_oracle;
+
+constexpr double tolerance = 1e-6;
+
+std::vector<FrequencyGrid> natural_grids(int period) {
+    const double step = 1.0 / period;
+    return {centred_grid(2 * period, 2 * period, step),
+            half_grid(2 * period, 2 * period, step),
+            centred_grid(period / 2, period / 4 + 1, step),
+            centred_grid(37, 29, step, 5 * step, -11 * step),
+            {3 * period, 5, -1.5, 0.25, step, step},
+            {20, 3 * period, 7 * step, -2, step, step},
+            {25, 31, -12 * step / 2, -15 * step / 4, step / 2, step / 4}};
+}
+
+TEST(FarField, NaturalGridsAgreeWithTheDefinition) {
+    for (const int size : {64, 32, 16}) {
+        for (const NamedMask& m : hard_masks(size)) {
+            const double area = open_area(m.aperture.mask.view());
+            for (const FrequencyGrid& grid : natural_grids(size)) {
+                const auto truth = exact(m.aperture.mask.view(), grid);
+                for (const FarFieldMethod method : {FarFieldMethod::runs, FarFieldMethod::raster_fft}) {
+                    for (const bool symmetry : {false, true}) {
+                        FarFieldParams params;
+                        params.method = method;
+                        params.symmetry = symmetry;
+                        SCOPED_TRACE(m.name + " " + std::to_string(size) + ", " +
+                                     far_field_method_name(method) + (symmetry ? ", mirrored" : "") +
+                                     ", grid " + std::to_string(grid.width) + " x " +
+                                     std::to_string(grid.height));
+                        const Field field = far_field(m.aperture, grid, params, {});
+                        EXPECT_LE(amplitude_error(field, truth, area), tolerance);
+                        const Image<float> power = far_field_power(m.aperture, grid, params, {});
+                        EXPECT_LE(power_error(power, truth, area), tolerance);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(FarField, BitsDoNotDependOnThreadsOrInstructionSet) {
+    for (const NamedMask& m : hard_masks(64)) {
+        for (const FrequencyGrid& grid : natural_grids(64)) {
+            for (const FarFieldMethod method : {FarFieldMethod::runs, FarFieldMethod::raster_fft}) {
+                FarFieldParams params;
+                params.method = method;
+                const Field first = far_field(m.aperture, grid, params, {Isa::ref, 1});
+                const Image<float> power = far_field_power(m.aperture, grid, params, {Isa::ref, 1});
+                for (const Isa isa : supported_isas()) {
+                    for (const int threads : {1, 3}) {
+                        const Field field = far_field(m.aperture, grid, params, {isa, threads});
+                        ASSERT_EQ(field.re, first.re) << m.name << " " << isa_name(isa);
+                        ASSERT_EQ(field.im, first.im) << m.name << " " << isa_name(isa);
+                        ASSERT_EQ(far_field_power(m.aperture, grid, params, {isa, threads}), power) << m.name;
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace obscura
