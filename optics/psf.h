@@ -2,6 +2,8 @@
 // The picture that a sensor takes of a point of light: the coloured far field of the lens's aperture, at its
 // true size in pixels.
 
+#include <cstdint>
+
 #include "core/image.h"
 #include "core/isa.h"
 #include "core/vec.h"
@@ -11,7 +13,7 @@
 
 namespace obscura {
 
-/// How wavelengths are added up (thesis, equations 3.16 and 3.17).
+/// How far_field_colour() adds wavelengths up (thesis, equations 3.16 and 3.17).
 enum class SpectralMethod {
     exact,   ///< every wavelength's pattern is computed on its own grid
     lookup,  ///< the paper's full mode: one pattern, looked up at 60 scales
@@ -22,30 +24,42 @@ struct PsfParams {
     double focal_length_m = 0.05;
     double f_number = 8;
     double pixel_m = 18.75e-6;
-    int radius_px = 256;  ///< the kernel has 2 radius + 1 pixels a side
+    int radius_px = 256;  ///< the kernel has 2 radius + 1 pixels a side, [0, 4096]
     LightSpectrum light;
     int wavelengths = 0;      ///< 0: chosen from radius and tolerance
-    double tolerance = 0.01;  ///< relative error of the colours that this choice aims at
-    SpectralMethod method = SpectralMethod::exact;
+    double tolerance = 0.01;  ///< relative error of the colours that this choice aims at, in [1e-4, 0.5]
+    SpectralMethod method = SpectralMethod::exact;  ///< far_field_colour() only
 };
 
-/// Rows top to bottom as on the picture: the image is inverted in both axes, as lenses do.
+/// Rows top to bottom as on the picture: the image is inverted in both axes, as lenses do (which cannot be
+/// seen: the pattern of any real mask is its own reflection through the centre).
 struct Psf {
-    /// Linear sRGB, side 2 radius + 1, the point at the centre; sums to the light's colour of luminance 1
-    /// (white for D65), so spreading light by it keeps its energy.
+    /// Linear sRGB, no channel negative, side 2 radius + 1, the point at the centre; sums to the light's
+    /// colour of luminance 1 (white for D65), so spreading light by it keeps its energy.
     Image<Vec3f> kernel;
-    /// Share of the light through the aperture that the kernel's square catches; the rest falls farther out
-    /// and is counted in by scaling.
+    /// Share of the luminance through the aperture that the kernel's square catches; the rest falls farther
+    /// out and is counted in by scaling.
     double captured = 0;
     int wavelengths = 0;
-    double cycles_per_px = 0;  ///< step of the grid at the mean wavelength, in cycles per aperture diameter
+    double cycles_per_px =
+        0;  ///< width of a pixel at 550 nm, in cycles per aperture diameter: pixel / (lambda N)
+    /// Highest frequency at the kernel's edge, of the shortest wavelength. A mask says little of its aperture
+    /// beyond 0.25 (steps of its edges begin to show as false streaks along its axes) and nothing beyond 0.5;
+    /// where the outline is known, it is used instead or the mask made finer, and this is about what was
+    /// used.
+    double highest_cycles_per_texel = 0;
+    FarFieldMethod method = FarFieldMethod::automatic;  ///< what computed the far field
+    std::int64_t frequencies = 0;                       ///< at which it was computed
 };
 
-/// The aperture's mask spans the entrance pupil's diameter, focal_length / f_number, with its width.
+/// The aperture's mask spans the entrance pupil's diameter, focal_length / f_number, with its width. A pixel
+/// gathers the light on its whole square, of all wavelengths (see optics/pixel_integrals.h). Throws
+/// UsageError for parameters out of range, InputError for an aperture that lets nothing through.
 Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec);
 
 /// The coloured far field alone: pixel (x, y) shows frequency grid(x, y) at reference_nm, all wavelengths
-/// added (equation 3.16). Linear sRGB, luminance 1 at the centre of the pattern.
+/// added (equation 3.16). Linear sRGB, luminance 1 at frequency 0; single colours may lie outside the gamut
+/// and have negative channels (see into_gamut()). Throws as above.
 Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
                               const PsfParams& params, const Exec& exec);
 

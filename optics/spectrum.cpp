@@ -76,10 +76,6 @@ std::vector<Line> lines_of(const LightSpectrum& light) {
     return {};
 }
 
-Vec3d scaled(Vec3d a, Vec3d by) {
-    return a * by;
-}
-
 /// Integral of power times observer, unscaled; steps of 1 nm, by the trapezoid rule.
 Vec3d integrate(const LightSpectrum& light) {
     Vec3d sum;
@@ -131,25 +127,42 @@ Interval visible_interval(const LightSpectrum& light) {
             longest_visible_nm - static_cast<double>(last - strength.rbegin())};
 }
 
-/// Unscaled samples of a light without lines: middles of equal steps of 1 / wavelength.
+/// The unscaled sample at a wavelength that stands for `width_nm` of the spectrum.
+SpectralSample sample_at(const LightSpectrum& light, double wavelength_nm, double width_nm) {
+    return {
+        wavelength_nm, observer_xyz(wavelength_nm) * (width_nm * spectral_power(light, wavelength_nm)), {}};
+}
+
+/// Middles of equal steps of 1 / wavelength, of a light without lines, those that show.
 std::vector<SpectralSample> continuous_samples(const LightSpectrum& light, int count) {
     const Interval shown = visible_interval(light);
     const double first = 1 / shown.longest_nm;
     const double step = (1 / shown.shortest_nm - first) / count;
-    std::vector<SpectralSample> samples;
-    std::vector<double> strength;
+    std::vector<double> wavelengths;
+    double strongest = 0;
     for (int i = count - 1; i >= 0; --i) {
-        const double nm = 1 / (first + (i + 0.5) * step);
-        const double weight = nm * nm;  // of equal steps of 1 / wavelength in an integral over wavelength
-        samples.push_back({nm, observer_xyz(nm) * (weight * spectral_power(light, nm)), {}});
-        strength.push_back(response(light, nm));
+        wavelengths.push_back(1 / (first + (i + 0.5) * step));
+        strongest = std::max(strongest, response(light, wavelengths.back()));
     }
-    const double least = least_response * *std::max_element(strength.begin(), strength.end());
-    std::vector<SpectralSample> kept;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (strength[i] >= least) kept.push_back(samples[i]);
+    std::vector<SpectralSample> samples;
+    for (const double nm : wavelengths) {
+        if (response(light, nm) >= least_response * strongest)
+            samples.push_back(sample_at(light, nm, nm * nm * step));
     }
-    return kept;
+    return samples;
+}
+
+/// Makes up for what a quadrature misses of each of X, Y and Z, in proportion; adds sRGB.
+void balance(const LightSpectrum& light, std::vector<SpectralSample>& samples) {
+    Vec3d sum;
+    for (const SpectralSample& sample : samples)
+        sum = sum + sample.xyz;
+    const Vec3d whole = light_xyz(light);
+    const Vec3d scale{whole.x / sum.x, whole.y / sum.y, whole.z / sum.z};
+    for (SpectralSample& sample : samples) {
+        sample.xyz = sample.xyz * scale;
+        sample.rgb = srgb_from_xyz(sample.xyz);
+    }
 }
 
 std::vector<SpectralSample> line_samples(const std::vector<Line>& lines, int count) {
@@ -221,7 +234,7 @@ double spectral_power(const LightSpectrum& light, double wavelength_nm) {
 }
 
 Vec3d light_xyz(const LightSpectrum& light) {
-    const Vec3d sum = scaled(integrate(light), observer_scale());
+    const Vec3d sum = integrate(light) * observer_scale();
     return sum * (1 / sum.y);
 }
 
@@ -232,16 +245,21 @@ std::vector<SpectralSample> spectral_samples(const LightSpectrum& light, int cou
     const std::vector<Line> lines = lines_of(light);
     std::vector<SpectralSample> samples =
         lines.empty() ? continuous_samples(light, count) : line_samples(lines, count);
-    // What a coarse quadrature misses of each of X, Y and Z is made up for in proportion.
-    Vec3d sum;
-    for (const SpectralSample& sample : samples)
-        sum = sum + sample.xyz;
-    const Vec3d whole = light_xyz(light);
-    const Vec3d scale{whole.x / sum.x, whole.y / sum.y, whole.z / sum.z};
-    for (SpectralSample& sample : samples) {
-        sample.xyz = scaled(sample.xyz, scale);
-        sample.rgb = srgb_from_xyz(sample.xyz);
+    balance(light, samples);
+    return samples;
+}
+
+std::vector<SpectralSample> geometric_samples(const LightSpectrum& light, int count) {
+    CHECK(count >= 1);
+    if (!lines_of(light).empty()) return {};
+    const Interval shown = visible_interval(light);
+    const double step = num::log(shown.longest_nm / shown.shortest_nm) / count;
+    std::vector<SpectralSample> samples;
+    for (int i = 0; i < count; ++i) {
+        const double nm = shown.shortest_nm * num::exp((i + 0.5) * step);
+        samples.push_back(sample_at(light, nm, nm * step));
     }
+    balance(light, samples);
     return samples;
 }
 

@@ -48,6 +48,10 @@ struct SpectralSample {
 /// luminance 1, for every count.
 std::vector<SpectralSample> spectral_samples(const LightSpectrum& light, int count);
 
+/// Exactly `count` samples, each wavelength the same multiple of the one before; none is left out. Lights of
+/// lines have none such: nothing.
+std::vector<SpectralSample> geometric_samples(const LightSpectrum& light, int count);
+
 /// How finely a light must be sampled. With s = 550 / wavelength_nm, the interval of s in which the light
 /// shows, and the number of samples per unit of s with which a pattern that passes `cycles_per_scale` fringes
 /// while s grows by 1 comes out with errors below `tolerance` of its colour. 0 samples: lines, all are taken.

@@ -1,0 +1,24 @@
+#pragma once
+// How wide an aperture is: what sets how finely its pattern varies.
+
+#include "optics/aperture.h"
+
+namespace obscura {
+
+/// Width and height in texels of the rectangle around all open texels; 0 when there are none.
+struct OpenExtent {
+    int width = 0, height = 0;
+};
+OpenExtent open_extent(ImageView<const float> mask);
+
+/// Width of the opening as seen along (u, v), times the length of (u, v): the fringes that the power |F|^2
+/// can pass between frequency 0 and (u, v). Its Fourier transform, the autocorrelation, ends at the widths.
+double fringes_to(ImageView<const float> mask, double u, double v);
+
+/// Integral of the squared transmission in texels^2, which is that of |F|^2 over all frequencies (Parseval).
+double transmitted_power(ImageView<const float> mask);
+
+/// Signed area of an outline's loops: that of the opening when they are disjoint.
+double outline_area(const Outline& outline);
+
+}  // namespace obscura

@@ -1,0 +1,155 @@
+// Point spread functions at the true size of a sensor's pixels.
+//
+// L. Scandolo: thesis, 2019, section 3.4.2 (equations 3.15 to 3.17) adds wavelengths at points of the
+// pattern. Pixels are seldom points: at f/8 one of 18.75 um is four fringes of the aperture's diameter wide,
+// and a point in it says nothing of its light. So pixels integrate here, exactly, by summed-area tables.
+
+#include "optics/psf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "optics/aperture_extent.h"
+#include "optics/outline_coverage.h"
+#include "optics/pixel_integrals.h"
+
+namespace obscura {
+
+namespace {
+
+constexpr double reference_nm = 550;
+constexpr int most_exact_corners = 96;  ///< outlines of more are cheaper as masks
+constexpr int finest_mask = 4096;
+constexpr double faithful_cycles_per_texel = 0.25;
+
+void check_params(const PsfParams& p) {
+    if (!(p.focal_length_m > 0)) throw UsageError("focal length must be positive");
+    if (!(p.f_number > 0 && p.f_number < 1e4)) throw UsageError("f-number must be positive");
+    if (!(p.pixel_m > 0 && p.pixel_m < 1)) throw UsageError("pixel size must be positive");
+    if (p.radius_px < 0 || p.radius_px > 4096) throw UsageError("kernel radius must be 0 to 4096 pixels");
+    if (p.wavelengths < 0 || p.wavelengths > 100000) throw UsageError("wavelength count must be 0 to 100000");
+    if (!(p.tolerance >= 1e-4 && p.tolerance <= 0.5)) throw UsageError("tolerance must be 0.0001 to 0.5");
+}
+
+/// Width of a pixel in cycles per aperture diameter.
+double cycles_per_pixel(const PsfParams& params, double wavelength_nm) {
+    return params.pixel_m / (wavelength_nm * 1e-9 * params.f_number);
+}
+
+/// The aperture in the form that serves the frequencies wanted.
+struct Pupil {
+    Aperture aperture;
+    FarFieldParams far_field;
+    double power = 0;  ///< Parseval's total
+};
+
+/// Few straight edges: their closed form, exact at every frequency. Other outlines: a mask fine enough. Only
+/// a mask: that.
+Pupil pupil_for(const Aperture& aperture, double cycles_per_texel) {
+    Pupil pupil{aperture, {}, 0};
+    std::size_t corners = 0;
+    for (const auto& loop : aperture.outline.loops)
+        corners += loop.size();
+    if (aperture.outline.disjoint && corners > 0 && corners <= most_exact_corners) {
+        pupil.far_field.method = FarFieldMethod::polygon;
+        pupil.power = std::fabs(outline_area(aperture.outline));
+        return pupil;
+    }
+    int finer = 1;
+    while (corners > 0 && cycles_per_texel / finer > faithful_cycles_per_texel &&
+           std::max(aperture.mask.width, aperture.mask.height) * finer * 2 <= finest_mask)
+        finer *= 2;
+    if (finer > 1) {
+        pupil.aperture.pitch_m /= finer;
+        for (auto& loop : pupil.aperture.outline.loops) {
+            for (Vec2d& p : loop)
+                p = p * static_cast<double>(finer);
+        }
+        pupil.aperture.mask =
+            coverage_of(pupil.aperture.outline, aperture.mask.width * finer, aperture.mask.height * finer);
+    }
+    pupil.power = transmitted_power(pupil.aperture.mask.view());
+    return pupil;
+}
+
+/// Wavelengths that the kernel needs. A pixel's light passes fringes as the pattern scales past it, but none
+/// finer than the pixel itself: it averages over them.
+int wavelength_count(const Aperture& aperture, const PsfParams& params, double texel_cycles) {
+    if (params.wavelengths > 0) return params.wavelengths;
+    const double edge = params.radius_px * texel_cycles;
+    const double fringes = std::min(fringes_to(aperture.mask.view(), edge, edge), 2.0 * params.radius_px);
+    return spectral_rate(params.light, fringes, params.tolerance).count;
+}
+
+/// Cells along a pixel's side where pixels, not the fringes, set them: power is constant over each.
+double cells_per_pixel(double tolerance) {
+    return std::clamp(4 * std::sqrt(0.01 / tolerance), 2.0, 16.0);
+}
+
+/// Sums of X, Y and Z over a kernel.
+Vec3d sum_of(const Image<Vec3d>& kernel) {
+    Vec3d sum;
+    for (const Vec3d& pixel : kernel.pixels)
+        sum = sum + pixel;
+    return sum;
+}
+
+Vec3d ratio(Vec3d a, Vec3d b) {
+    return {b.x > 0 ? a.x / b.x : 0, b.y > 0 ? a.y / b.y : 0, b.z > 0 ? a.z / b.z : 0};
+}
+
+/// XYZ to displayable linear sRGB that sums to the light's colour, both as the gamut holds them.
+Image<Vec3f> balanced_kernel(Image<Vec3d> xyz, const LightSpectrum& light) {
+    const Vec3d whole = ratio(light_xyz(light), sum_of(xyz));
+    for (Vec3d& pixel : xyz.pixels)
+        pixel = into_gamut(srgb_from_xyz(pixel * whole));
+    const Vec3d mapped = ratio(into_gamut(srgb_from_xyz(light_xyz(light))), sum_of(xyz));
+    Image<Vec3f> kernel(xyz.width, xyz.height);
+    for (std::size_t i = 0; i < xyz.pixels.size(); ++i)
+        kernel.pixels[i] = to_float(xyz.pixels[i] * mapped);
+    return kernel;
+}
+
+}  // namespace
+
+Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec) {
+    check_params(params);
+    const OpenExtent coarse = open_extent(aperture.mask.view());
+    if (coarse.width == 0) throw InputError("aperture", "lets no light through");
+
+    // Sizes: of a pixel in cycles per texel, per wavelength, and of the cells that sample the power.
+    const double diameter = aperture.mask.width;
+    const double reference_cycles = cycles_per_pixel(params, reference_nm);
+    const int count = wavelength_count(aperture, params, reference_cycles / diameter);
+    const std::vector<SpectralSample> samples = spectral_samples(params.light, count);
+    const double highest =
+        (params.radius_px + 0.5) * cycles_per_pixel(params, samples.front().wavelength_nm) / diameter;
+    const Pupil pupil = pupil_for(aperture, highest);
+    const double texels = pupil.aperture.mask.width;
+    const OpenExtent extent = open_extent(pupil.aperture.mask.view());
+    const double cell = std::min(1.0 / (2.0 * std::max(extent.width, extent.height)),
+                                 reference_cycles / texels / cells_per_pixel(params.tolerance));
+
+    std::vector<PixelLight> lights;
+    for (const SpectralSample& sample : samples)
+        lights.push_back(
+            {cycles_per_pixel(params, sample.wavelength_nm) / texels, sample.xyz * (1 / pupil.power)});
+    Image<Vec3d> xyz = integrate_over_pixels(
+        [&](const FrequencyGrid& grid) {
+            return far_field_power(pupil.aperture, grid, pupil.far_field, exec);
+        },
+        cell, params.radius_px, lights, exec);
+
+    Psf psf;
+    psf.captured = sum_of(xyz).y;
+    psf.wavelengths = static_cast<int>(samples.size());
+    psf.cycles_per_px = reference_cycles;
+    psf.highest_cycles_per_texel = highest * diameter / texels;
+    psf.method = pupil.far_field.method;
+    psf.frequencies = pixel_integral_samples(cell, params.radius_px, lights);
+    psf.kernel = balanced_kernel(std::move(xyz), params.light);
+    return psf;
+}
+
+}  // namespace obscura
