@@ -66,42 +66,58 @@ OBSCURA_INLINE void put(const ProductTarget& t, int x, int y, F32 re, F32 im) {
     if (t.power != nullptr) store_lanes(t.power + at, re * re + im * im, which);
 }
 
-/// Rows first to first + rows - 1 of one tile. Without `odd_a` (`odd_b`) the imaginary parts of A (B) are 0.
-template <bool odd_a, bool odd_b>
-OBSCURA_INLINE void add_rows(const ProductPanels& p, std::ptrdiff_t a_at, std::ptrdiff_t b_at,
-                             Sums (&total)[product_tile]) {
+/// A block of terms, added up in registers: sum p of row r is part[p * rows + r], in the order rr, ri, ir, ii
+/// of those that there are.
+template <bool odd_a, bool odd_b, int rows>
+OBSCURA_INLINE void add_block(const float* a_re, const float* a_im, const float* b_re, const float* b_im,
+                              int terms, F32* sums) {
     constexpr int products = (odd_a ? 2 : 1) * (odd_b ? 2 : 1);
-    constexpr int rows = sums_in_registers > products ? sums_in_registers / products : 1;
-    const F32 zero = splat(0.0f);
-    Sums lost[rows];
-    for (int r = 0; r < rows; ++r)
-        total[r] = lost[r] = {zero, zero, zero, zero};
-    for (int k0 = 0; k0 < p.terms; k0 += product_block) {
-        const int end = k0 + product_block < p.terms ? k0 + product_block : p.terms;
-        Sums part[rows];
-        for (int r = 0; r < rows; ++r)
-            part[r] = {zero, zero, zero, zero};
-        for (int k = k0; k < end; ++k) {
-            const float* a_re = p.a_re + a_at + lanes * k;
-            const float* a_im = p.a_im + (odd_a ? a_at + lanes * k : 0);
-            const F32 b_re = load(p.b_re + b_at + lanes * k);
-            const F32 b_im = odd_b ? load(p.b_im + b_at + lanes * k) : zero;
-            for (int r = 0; r < rows; ++r) {
-                const F32 re = splat(a_re[r]);
-                part[r].rr = part[r].rr + re * b_re;
-                if (odd_b) part[r].ri = part[r].ri + re * b_im;
-                if (!odd_a) continue;
-                const F32 im = splat(a_im[r]);
-                part[r].ir = part[r].ir + im * b_re;
-                if (odd_b) part[r].ii = part[r].ii + im * b_im;
-            }
-        }
+    F32 part[products * rows];
+#pragma GCC unroll 16
+    for (int s = 0; s < products * rows; ++s)
+        part[s] = splat(0.0f);
+    for (int k = 0; k < terms; ++k) {
+        const F32 re16 = load(b_re + lanes * k);
+        const F32 im16 = odd_b ? load(b_im + lanes * k) : re16;
+#pragma GCC unroll 16
         for (int r = 0; r < rows; ++r) {
-            add_compensated(part[r].rr, total[r].rr, lost[r].rr);
-            if (odd_b) add_compensated(part[r].ri, total[r].ri, lost[r].ri);
-            if (odd_a) add_compensated(part[r].ir, total[r].ir, lost[r].ir);
-            if (odd_a && odd_b) add_compensated(part[r].ii, total[r].ii, lost[r].ii);
+            const F32 re = splat(a_re[lanes * k + r]);
+            part[r] = part[r] + re * re16;
+            if (odd_b) part[rows + r] = part[rows + r] + re * im16;
+            if (!odd_a) continue;
+            const F32 im = splat(a_im[lanes * k + r]);
+            constexpr int ir = odd_b ? 2 : 1;
+            part[ir * rows + r] = part[ir * rows + r] + im * re16;
+            if (odd_b) part[3 * rows + r] = part[3 * rows + r] + im * im16;
         }
+    }
+#pragma GCC unroll 16
+    for (int s = 0; s < products * rows; ++s)
+        sums[s] = part[s];
+}
+
+/// Rows of one tile from a_at on, as many as fit. Without odd_a (odd_b) the imaginary parts of A (B) are 0.
+template <bool odd_a, bool odd_b, int rows>
+OBSCURA_INLINE void add_rows(const ProductPanels& p, std::ptrdiff_t a_at, std::ptrdiff_t b_at,
+                             Sums (&sum)[product_tile]) {
+    constexpr int products = (odd_a ? 2 : 1) * (odd_b ? 2 : 1);
+    const F32 zero = splat(0.0f);
+    F32 total[products * rows], lost[products * rows], part[products * rows];
+    for (int s = 0; s < products * rows; ++s)
+        total[s] = lost[s] = zero;
+    for (int k = 0; k < p.terms; k += product_block) {
+        const int left = p.terms - k, terms = left < product_block ? left : product_block;
+        const std::ptrdiff_t a = a_at + lanes * k, b = b_at + lanes * k;
+        add_block<odd_a, odd_b, rows>(p.a_re + a, odd_a ? p.a_im + a : nullptr, p.b_re + b,
+                                      odd_b ? p.b_im + b : nullptr, terms, part);
+        for (int s = 0; s < products * rows; ++s)
+            add_compensated(part[s], total[s], lost[s]);
+    }
+    for (int r = 0; r < rows; ++r) {
+        sum[r].rr = total[r];
+        sum[r].ri = odd_b ? total[rows + r] : zero;
+        sum[r].ir = odd_a ? total[(odd_b ? 2 : 1) * rows + r] : zero;
+        sum[r].ii = odd_a && odd_b ? total[(products - 1) * rows + r] : zero;
     }
 }
 
@@ -124,7 +140,7 @@ void tile(const ProductPanels& p, const ProductTarget& t, int row_panel, int col
         const int m = lanes * row_panel + first;
         if (!any_wanted(t, x, m, rows)) continue;
         Sums sum[product_tile];
-        add_rows<odd_a, odd_b>(p, size * row_panel + first, size * column_panel, sum);
+        add_rows<odd_a, odd_b, rows>(p, size * row_panel + first, size * column_panel, sum);
         for (int r = 0; r < rows; ++r) {
             put(t, x, t.origin + m + r, sum[r].rr - sum[r].ii, sum[r].ri + sum[r].ir);
             if (t.mirrored && m + r > 0)

@@ -12,20 +12,6 @@
 namespace obscura {
 namespace {
 
-/// True when every term is an even function: its transform is real.
-bool all_even(const IntervalTerms& terms) {
-    for (std::size_t k = 0; k + 1 < terms.begin.size(); ++k) {
-        auto low = static_cast<std::size_t>(terms.begin[k]),
-             high = static_cast<std::size_t>(terms.begin[k + 1]);
-        while (low < high) {
-            --high;
-            if (terms.x0[low] != -terms.x1[high] || terms.weight[low] != terms.weight[high]) return false;
-            ++low;
-        }
-    }
-    return true;
-}
-
 /// Transforms of all terms at all frequencies of a ramp, in panels of sixteen.
 struct Factors {
     Buffer<float> re, im;
@@ -66,10 +52,6 @@ int mirror_row(const FrequencyGrid& grid) {
     return std::fabs(grid.first_v + row * grid.step_v) <= 1e-10 * grid.step_v ? static_cast<int>(row) : -1;
 }
 
-int products_needed(const SeparableTerms& terms) {
-    return (all_even(terms.x) ? 1 : 2) * (all_even(terms.y) ? 1 : 2);
-}
-
 void separable_field(const SeparableTerms& terms, const FrequencyGrid& grid, const SeparableParams& params,
                      const FieldTarget& target, const Exec& exec) {
     CHECK(target.stride >= grid.width);
@@ -103,7 +85,7 @@ double separable_cost_ns(const SeparableTerms& terms, const FrequencyGrid& grid)
     const double intervals_x = static_cast<double>(terms.x.x0.size()),
                  intervals_y = static_cast<double>(terms.y.x0.size());
     const double pixels = static_cast<double>(grid.width) * grid.height;
-    return 0.025 * products_needed(terms) * terms.count() * rows * columns +
+    return 0.025 * products_per_term(terms) * terms.count() * rows * columns +
            1.0 * (intervals_x * columns + intervals_y * rows) + 0.3 * pixels + 5000;
 }
 

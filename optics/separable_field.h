@@ -25,9 +25,6 @@ struct SeparableParams {
 /// Row of the grid at which v = 0, or -1: the rows around it come in conjugate pairs.
 int mirror_row(const FrequencyGrid& grid);
 
-/// Real products per term and pixel pair that the terms need: 1, 2 or 4.
-int products_needed(const SeparableTerms& terms);
-
 /// F of the terms over the grid.
 void separable_field(const SeparableTerms& terms, const FrequencyGrid& grid, const SeparableParams& params,
                      const FieldTarget& target, const Exec& exec);

@@ -33,15 +33,21 @@ struct SeparableTerms {
     int count() const { return x.count(); }
 };
 
+/// True when every term is an even function: its transform is real.
+bool all_even(const IntervalTerms& terms);
+
+/// Real products of a term's transforms that rows v and -v need: 1 (both factors even), 2 or 4.
+int products_per_term(const SeparableTerms& terms);
+
 /// One term per quad.
 SeparableTerms separable_terms(const QuadList& quads);
 
 /// One term per distinct column of texels: its runs in y, times the intervals in x where the mask shows that
-/// column. With `by_rows`, one per distinct row. Columns that are 0 throughout need none.
+/// column. Columns that are 0 throughout need none. distinct_rows: the same with x and y exchanged.
 SeparableTerms distinct_columns(ImageView<const float> mask);
 SeparableTerms distinct_rows(ImageView<const float> mask);
 
-/// Whichever has fewer terms (columns where equal).
+/// Whichever needs fewer products (columns where equal).
 SeparableTerms separable_terms(ImageView<const float> mask);
 
 }  // namespace obscura
