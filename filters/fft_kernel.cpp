@@ -266,9 +266,10 @@ OBSCURA_INLINE void short_block(const FftTable& table, const Block& x, int log2_
         });
 }
 
-/// Radix 16 while at least 128 elements remain, then radix 4 once if that leaves 16 or 8.
+/// Longer blocks: radix 16 where its 32 lines lie in different sets of the first cache (256 elements), else
+/// radix 4. Powers of two apart, more lines would push each other out before they are written.
 OBSCURA_INLINE int log2_radix(int log2_n) {
-    return log2_n > 6 ? 4 : 2;
+    return log2_n == 8 ? 4 : 2;
 }
 
 void forward_block(const FftTable& table, const Block& x, int log2_n) {
