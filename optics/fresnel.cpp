@@ -220,4 +220,10 @@ FresnelValue chirp_integral(double a, double b, double length) {
     return {scale * sum.c, scale * sum.s};
 }
 
+FresnelValue fresnel_between(double turns, double d, double length) {
+    const double a = 4 * num::pi * turns * d, b = 2 * num::pi * turns, scale = 2 * std::sqrt(turns);
+    const FresnelValue v = times(unit_of_turns(two_product(d, d) * turns), chirp_integral(a, b, length));
+    return {scale * v.c, scale * v.s};
+}
+
 }  // namespace obscura

@@ -31,4 +31,8 @@ FresnelValue fresnel_at(double turns, double d);
 /// cancellation) below 1e-13 as long as a length and b length^2 stay below 1e3.
 FresnelValue chirp_integral(double a, double b, double length);
 
+/// fresnel_at(turns, d + length) - fresnel_at(turns, d), without the cancellation that a short length, or
+/// turns -> 0, would bring. length >= 0.
+FresnelValue fresnel_between(double turns, double d, double length);
+
 }  // namespace obscura

@@ -41,14 +41,22 @@ struct NearFieldParams {
     double wavelength_m = 550e-9;
     double distance_m = 0;  ///< z > 0
     NearFieldMethod method = NearFieldMethod::automatic;
-    double cull = 0;  ///< blocks of 8 x 8 pixels whose sampled power is below this share of 1 become 0
+    /// Edges only: blocks of 8 x 8 pixels become 0 where the power at their centre is below this share of the
+    /// unobstructed wave's (the thesis samples values alone, too). The other methods compute every pixel.
+    double cull = 0;
+    /// 2^coarse_levels texels in a row become one first: the finest level of a coarser quadtree. Binary masks
+    /// stay binary. What then remains exact is the field of the coarser mask; its edges are off by up to half
+    /// a coarse texel.
+    int coarse_levels = 0;
 };
 
 struct NearFieldReport {
     NearFieldMethod method = NearFieldMethod::automatic;
     double cost_ms = 0;
     std::string reason;
-    std::int64_t quads = -1, edges = -1;
+    std::int64_t quads = -1;  ///< when they were counted
+    std::int64_t edges = -1;  ///< distinct columns or rows of the mask, when they were counted
+    std::int64_t active_blocks = -1, blocks = -1;  ///< when culling was asked for
 };
 
 /// a^2 / (lambda z), a = half the mask's larger side.
@@ -65,5 +73,9 @@ Field near_field(const Aperture& aperture, const PlaneGrid& grid, const NearFiel
 Image<float> near_field_intensity(const Aperture& aperture, const PlaneGrid& grid,
                                   const NearFieldParams& params, const Exec& exec,
                                   NearFieldReport* report = nullptr);
+
+/// Into memory of the caller's, which is what the others do after allocating.
+void near_field_into(const Aperture& aperture, const PlaneGrid& grid, const NearFieldParams& params,
+                     const FieldTarget& target, const Exec& exec, NearFieldReport* report = nullptr);
 
 }  // namespace obscura
