@@ -35,6 +35,16 @@ struct Forward {
         const Reg c(re), s(im);
         return {a.re * c - a.im * s, a.re * s + a.im * c};
     }
+    /// By an eighth of a turn, and by three.
+    OBSCURA_INLINE static Complex eighth(const Complex& a) {
+        const Reg h(fft_eighth);
+        return {(a.re + a.im) * h, (a.im - a.re) * h};
+    }
+    OBSCURA_INLINE static Complex three_eighths(const Complex& a) {
+        const Reg h(fft_eighth), minus_h(-fft_eighth);
+        return {(a.im - a.re) * h, (a.re + a.im) * minus_h};
+    }
+    /// a + b turned by a quarter, and by three.
     OBSCURA_INLINE static Complex quarter(const Complex& a, const Complex& b) { return minus_i(a, b); }
     OBSCURA_INLINE static Complex three_quarters(const Complex& a, const Complex& b) { return plus_i(a, b); }
 };
@@ -43,6 +53,14 @@ struct Backward {
     OBSCURA_INLINE static Complex turned(const Complex& a, float re, float im) {
         const Reg c(re), s(im);
         return {a.re * c + a.im * s, a.im * c - a.re * s};
+    }
+    OBSCURA_INLINE static Complex eighth(const Complex& a) {
+        const Reg h(fft_eighth);
+        return {(a.re - a.im) * h, (a.re + a.im) * h};
+    }
+    OBSCURA_INLINE static Complex three_eighths(const Complex& a) {
+        const Reg h(fft_eighth), minus_h(-fft_eighth);
+        return {(a.re + a.im) * minus_h, (a.re - a.im) * h};
     }
     OBSCURA_INLINE static Complex quarter(const Complex& a, const Complex& b) { return plus_i(a, b); }
     OBSCURA_INLINE static Complex three_quarters(const Complex& a, const Complex& b) { return minus_i(a, b); }
@@ -59,6 +77,14 @@ OBSCURA_INLINE void mix(Four& x) {
     x = {a + c, Direction::quarter(b, d), a - c, Direction::three_quarters(b, d)};
 }
 
+/// The same where x2 waits for a quarter turn.
+template <class Direction>
+OBSCURA_INLINE void mix_with_quarter(Four& x) {
+    const Complex a = Direction::quarter(x.x0, x.x2), b = Direction::three_quarters(x.x0, x.x2);
+    const Complex c = x.x1 + x.x3, d = x.x1 - x.x3;
+    x = {a + c, Direction::quarter(b, d), a - c, Direction::three_quarters(b, d)};
+}
+
 struct Twiddles {
     const float *re, *im;
     OBSCURA_INLINE Twiddles at(std::ptrdiff_t k) const { return {re + 3 * k, im + 3 * k}; }
@@ -68,6 +94,12 @@ OBSCURA_INLINE void turn(Four& x, const Twiddles& w) {
     x.x1 = Direction::turned(x.x1, w.re[0], w.im[0]);
     x.x2 = Direction::turned(x.x2, w.re[1], w.im[1]);
     x.x3 = Direction::turned(x.x3, w.re[2], w.im[2]);
+}
+/// The turns of k = n/8, of which x2's quarter is left to the next step.
+template <class Direction>
+OBSCURA_INLINE void turn_by_eighths(Four& x) {
+    x.x1 = Direction::eighth(x.x1);
+    x.x3 = Direction::three_eighths(x.x3);
 }
 OBSCURA_INLINE Twiddles twiddles(const FftTable& table, int n) {
     return {table.re + fft_pass_offset(n), table.im + fft_pass_offset(n)};
@@ -163,22 +195,66 @@ OBSCURA_INLINE void backward16(const Block& x, std::ptrdiff_t s, const Twiddles&
     x.from(3 * s).set4(4 * s, d);
 }
 
+/// Both passes of a transform of length 16, where many turns are eighths.
+OBSCURA_INLINE void forward_whole16(const Block& x, const Twiddles& w) {
+    Four a = x.get4(4), b = x.from(1).get4(4), c = x.from(2).get4(4), d = x.from(3).get4(4);
+    mix<Forward>(a);
+    mix<Forward>(b);
+    b = {b.x0, Forward::turned(b.x1, w.re[3], w.im[3]), Forward::eighth(b.x2),
+         Forward::turned(b.x3, w.re[5], w.im[5])};
+    mix<Forward>(c);
+    turn_by_eighths<Forward>(c);
+    mix<Forward>(d);
+    d = {d.x0, Forward::turned(d.x1, w.re[9], w.im[9]), Forward::three_eighths(d.x2),
+         Forward::turned(d.x3, w.re[11], w.im[11])};
+    transpose(a, b, c, d);
+    mix<Forward>(a);
+    x.set4(1, a);
+    mix<Forward>(b);
+    x.from(4).set4(1, b);
+    mix_with_quarter<Forward>(c);
+    x.from(8).set4(1, c);
+    mix<Forward>(d);
+    x.from(12).set4(1, d);
+}
+OBSCURA_INLINE void backward_whole16(const Block& x, const Twiddles& w) {
+    Four a = x.get4(1), b = x.from(4).get4(1), c = x.from(8).get4(1), d = x.from(12).get4(1);
+    mix<Backward>(a);
+    mix<Backward>(b);
+    mix<Backward>(c);
+    mix<Backward>(d);
+    transpose(a, b, c, d);
+    mix<Backward>(a);
+    x.set4(4, a);
+    b = {b.x0, Backward::turned(b.x1, w.re[3], w.im[3]), Backward::eighth(b.x2),
+         Backward::turned(b.x3, w.re[5], w.im[5])};
+    mix<Backward>(b);
+    x.from(1).set4(4, b);
+    turn_by_eighths<Backward>(c);
+    mix_with_quarter<Backward>(c);
+    x.from(2).set4(4, c);
+    d = {d.x0, Backward::turned(d.x1, w.re[9], w.im[9]), Backward::three_eighths(d.x2),
+         Backward::turned(d.x3, w.re[11], w.im[11])};
+    mix<Backward>(d);
+    x.from(3).set4(4, d);
+}
+
 /// A radix-4 pass and the radix-2 pass after it: a whole transform of length 8.
-OBSCURA_INLINE void forward8(const Block& x, const Twiddles& w) {
+OBSCURA_INLINE void forward_whole8(const Block& x) {
     Four a = x.get4(2), b = x.from(1).get4(2);
     mix<Forward>(a);
     mix<Forward>(b);
-    turn<Forward>(b, w.at(1));
-    x.set4(2, {a.x0 + b.x0, a.x1 + b.x1, a.x2 + b.x2, a.x3 + b.x3});
-    x.from(1).set4(2, {a.x0 - b.x0, a.x1 - b.x1, a.x2 - b.x2, a.x3 - b.x3});
+    turn_by_eighths<Forward>(b);
+    x.set4(2, {a.x0 + b.x0, a.x1 + b.x1, Forward::quarter(a.x2, b.x2), a.x3 + b.x3});
+    x.from(1).set4(2, {a.x0 - b.x0, a.x1 - b.x1, Forward::three_quarters(a.x2, b.x2), a.x3 - b.x3});
 }
-OBSCURA_INLINE void backward8(const Block& x, const Twiddles& w) {
+OBSCURA_INLINE void backward_whole8(const Block& x) {
     const Four even = x.get4(2), odd = x.from(1).get4(2);
     Four a{even.x0 + odd.x0, even.x1 + odd.x1, even.x2 + odd.x2, even.x3 + odd.x3};
     Four b{even.x0 - odd.x0, even.x1 - odd.x1, even.x2 - odd.x2, even.x3 - odd.x3};
-    turn<Backward>(b, w.at(1));
+    turn_by_eighths<Backward>(b);
     mix<Backward>(a);
-    mix<Backward>(b);
+    mix_with_quarter<Backward>(b);
     x.set4(2, a);
     x.from(1).set4(2, b);
 }
@@ -254,11 +330,11 @@ OBSCURA_INLINE void short_block(const FftTable& table, const Block& x, int log2_
                     whole4<Direction>(y);
                     break;
                 case 3:
-                    forward ? forward8(y, twiddles(table, 8)) : backward8(y, twiddles(table, 8));
+                    forward ? forward_whole8(y) : backward_whole8(y);
                     break;
                 case 4:
-                    forward ? forward16<true>(y, 1, twiddles(table, 16), {})
-                            : backward16<true>(y, 1, twiddles(table, 16), {});
+                    forward ? forward_whole16(y, twiddles(table, 16))
+                            : backward_whole16(y, twiddles(table, 16));
                     break;
                 default:
                     break;

@@ -44,6 +44,40 @@ Complex twiddle(const FftTable& table, int n, int j, int k) {
     const int at = fft_pass_offset(n) + 3 * k + j - 1;
     return {table.re[at], table.im[at]};
 }
+/// In short passes, eighths of a turn take two products instead of four: how many there are in w_n^(j k), or
+/// -1.
+int eighths(int n, int j, int k) {
+    return n <= 16 && 8 * j * k % n == 0 ? 8 * j * k / n : -1;
+}
+
+/// z w_n^(j k).
+Complex turned(Complex z, const FftTable& table, int n, int j, int k) {
+    const float sum = z.re + z.im, difference = z.im - z.re, h = fft_eighth;
+    switch (eighths(n, j, k)) {
+        case 1:
+            return {sum * h, difference * h};
+        case 2:
+            return {z.im, -z.re};
+        case 3:
+            return {difference * h, -sum * h};
+        default:
+            return z * twiddle(table, n, j, k);
+    }
+}
+/// z over w_n^(j k).
+Complex turned_back(Complex z, const FftTable& table, int n, int j, int k) {
+    const float sum = z.re + z.im, difference = z.re - z.im, h = fft_eighth;
+    switch (eighths(n, j, k)) {
+        case 1:
+            return {difference * h, sum * h};
+        case 2:
+            return {-z.im, z.re};
+        case 3:
+            return {-sum * h, difference * h};
+        default:
+            return times_conjugate(z, twiddle(table, n, j, k));
+    }
+}
 
 /// One of the n/4 butterflies of a block that starts at `first`.
 void forward4(const FftTable& table, const Sequences& x, int first, int n, int k, int lane) {
@@ -53,7 +87,7 @@ void forward4(const FftTable& table, const Sequences& x, int first, int n, int k
     const Complex a = x0 + x2, b = x0 - x2, c = x1 + x3, d = times_i(x1 - x3);
     Complex t[4] = {a + c, b - d, a - c, b + d};
     for (int j = 1; j < 4 && k > 0; ++j)
-        t[j] = t[j] * twiddle(table, n, j, k);
+        t[j] = turned(t[j], table, n, j, k);
     for (int j = 0; j < 4; ++j)
         x.set(at + j * q, lane, t[j]);
 }
@@ -64,7 +98,7 @@ void backward4(const FftTable& table, const Sequences& x, int first, int n, int 
     for (int j = 0; j < 4; ++j)
         t[j] = x.get(at + j * q, lane);
     for (int j = 1; j < 4 && k > 0; ++j)
-        t[j] = times_conjugate(t[j], twiddle(table, n, j, k));
+        t[j] = turned_back(t[j], table, n, j, k);
     const Complex a = t[0] + t[2], b = t[0] - t[2], c = t[1] + t[3], d = times_i(t[1] - t[3]);
     x.set(at, lane, a + c);
     x.set(at + q, lane, b + d);
