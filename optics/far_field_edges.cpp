@@ -10,10 +10,12 @@
 // but lose accuracy towards u = 0, where large numbers cancel. Intervals do not: at u = v = 0 all terms are
 // positive and their sum is the open area.
 
-#include <algorithm>
+#include <cmath>
 
 #include "optics/far_field_costs.h"
+#include "optics/far_field_cull.h"
 #include "optics/far_field_methods.h"
+#include "optics/field_rows.h"
 #include "optics/separable_field.h"
 
 namespace obscura {
@@ -22,8 +24,20 @@ void far_field_edges(ImageView<const float> mask, const FrequencyGrid& grid, dou
                      const FieldTarget& target, const Exec& exec, FarFieldReport* report) {
     const SeparableTerms terms = separable_terms(mask);
     if (report != nullptr) report->edges = terms.count();
-    CHECK(cull == 0);
-    separable_field(terms, grid, {}, target, exec);
+    if (cull <= 0) {
+        separable_field(terms, grid, {}, target, exec);
+        return;
+    }
+    const double amplitude = std::sqrt(cull) * open_area(mask);
+    const BlockSet blocks = bright_blocks(terms, grid, amplitude, CullTest::with_neighbours, exec);
+    if (report != nullptr) {
+        report->active_blocks = active_count(blocks);
+        report->blocks = static_cast<std::int64_t>(blocks.active.size());
+    }
+    clear(target, grid.width, grid.height, exec);
+    SeparableParams params;
+    params.blocks = &blocks;
+    separable_field(terms, grid, params, target, exec);
 }
 
 double far_field_edges_cost_ns(ImageView<const float> mask, const FrequencyGrid& grid) {

@@ -30,11 +30,14 @@ struct BoxTerms {
 /// box_panel: re[16 k + l] + i im[16 k + l] = integral of term k times e^(-2 pi i u x) dx at the sixteen
 /// frequencies u = first + (offset + l) step. An interval's transform is width * sinc(u width) * phasor of
 /// its centre, never a difference of antiderivatives: nothing cancels, and u = 0 gives the exact width.
-#define OBSCURA_PHASOR                                                                      \
-    void phasors(const double* turns, int count, float* re, float* im) noexcept;            \
-    void phasor_row(const FrequencyRamp& ramp, double x, float* re, float* im) noexcept;    \
-    void box_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re, \
-                   float* im) noexcept;
+/// box_slope_panel: the derivatives of the same by u, times the ramp's step.
+#define OBSCURA_PHASOR                                                                            \
+    void phasors(const double* turns, int count, float* re, float* im) noexcept;                  \
+    void phasor_row(const FrequencyRamp& ramp, double x, float* re, float* im) noexcept;          \
+    void box_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re,       \
+                   float* im) noexcept;                                                           \
+    void box_slope_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re, \
+                         float* im) noexcept;
 namespace ref {
 OBSCURA_PHASOR
 }

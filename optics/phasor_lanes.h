@@ -73,6 +73,28 @@ OBSCURA_INLINE Phasor16 box_transform(const F64& u, double x0, double x1, float 
     return {size * p.re, size * p.im};
 }
 
+/// Derivative of sinc by t.
+OBSCURA_INLINE F32 sinc_slope(const F64& t) {
+    using namespace phasor_terms;
+    const F32 nearby = to_f32(t);
+    const F32 a = nearby * splat(pi), z = a * a;
+    const F32 series = ((z * splat(d3) + splat(d2)) * z + splat(d1)) * z + splat(1.0f);
+    return select(less(abs(nearby), splat(short_of_turn)), series * (a * splat(-pi / 3)),
+                  (phasor(t * splat(0.5)).re - sinc(t)) / nearby);
+}
+
+/// Derivative of box_transform by u, times `step`.
+OBSCURA_INLINE Phasor16 box_slope(const F64& u, double step, double x0, double x1, float weight) {
+    const double width = x1 - x0, centre = (x0 + x1) * 0.5;
+    const float size = static_cast<float>(width) * weight;
+    const F64 t = u * splat(width);
+    const F32 own = splat(size) * (splat(static_cast<float>(width * step)) * sinc_slope(t));
+    const F32 turning =
+        splat(size) * (splat(static_cast<float>(phasor_terms::two_pi * centre * step)) * sinc(t));
+    const Phasor16 p = phasor(u * splat(centre));
+    return {own * p.re + turning * p.im, own * p.im - turning * p.re};
+}
+
 /// Frequencies first + (offset + lane) step.
 OBSCURA_INLINE F64 ramp16(const FrequencyRamp& ramp, int offset) {
     return splat(ramp.first) + to_f64(lane_index() + splat(std::int32_t{offset})) * splat(ramp.step);

@@ -72,4 +72,24 @@ inline Phasor box_transform(double u, double x0, double x1, float weight) {
     return {size * p.re, size * p.im};
 }
 
+/// Derivative of sinc by t.
+inline float sinc_slope(double t) {
+    using namespace phasor_terms;
+    const float nearby = static_cast<float>(t);
+    const float a = nearby * pi, z = a * a;
+    if ((nearby < 0.0f ? -nearby : nearby) < short_of_turn)
+        return (((z * d3 + d2) * z + d1) * z + 1.0f) * (a * (-pi / 3));
+    return (phasor(t * 0.5).re - sinc(t)) / nearby;
+}
+
+/// Derivative of box_transform by u, times `step`.
+inline Phasor box_slope(double u, double step, double x0, double x1, float weight) {
+    const double width = x1 - x0, centre = (x0 + x1) * 0.5;
+    const float size = static_cast<float>(width) * weight;
+    const float own = size * (static_cast<float>(width * step) * sinc_slope(u * width));
+    const float turning = size * (static_cast<float>(phasor_terms::two_pi * centre * step) * sinc(u * width));
+    const Phasor p = phasor(u * centre);
+    return {own * p.re + turning * p.im, own * p.im - turning * p.re};
+}
+
 }  // namespace obscura

@@ -23,7 +23,7 @@ int panels_for(int count) {
     return (count + product_tile - 1) / product_tile;
 }
 
-Factors factors_of(const IntervalTerms& terms, const FrequencyRamp& ramp, const Exec& exec) {
+Factors factors_of(const IntervalTerms& terms, const FrequencyRamp& ramp, bool slope, const Exec& exec) {
     const auto panels = static_cast<std::size_t>(panels_for(ramp.count));
     const std::size_t size = static_cast<std::size_t>(terms.count()) * product_tile;
     Factors factors;
@@ -31,15 +31,19 @@ Factors factors_of(const IntervalTerms& terms, const FrequencyRamp& ramp, const 
     factors.im.reset(panels * size);
     factors.real = all_even(terms);
     parallel_for(panels, exec, [&](std::size_t p) {
-        OBSCURA_DISPATCH(exec.isa, box_panel, ramp, static_cast<int>(p) * product_tile, terms.view(),
-                         factors.re.data() + p * size, factors.im.data() + p * size);
+        const int first = static_cast<int>(p) * product_tile;
+        float *re = factors.re.data() + p * size, *im = factors.im.data() + p * size;
+        if (slope) {
+            OBSCURA_DISPATCH(exec.isa, box_slope_panel, ramp, first, terms.view(), re, im);
+        } else {
+            OBSCURA_DISPATCH(exec.isa, box_panel, ramp, first, terms.view(), re, im);
+        }
     });
     return factors;
 }
 
 /// Frequencies of the rows that are computed: from v = 0 on where rows come in pairs.
-FrequencyRamp row_ramp(const FrequencyGrid& grid) {
-    const int middle = mirror_row(grid);
+FrequencyRamp row_ramp(const FrequencyGrid& grid, int middle) {
     if (middle < 0) return {grid.first_v, grid.step_v, grid.height};
     return {0, grid.step_v, std::max(middle, grid.height - 1 - middle) + 1};
 }
@@ -56,13 +60,17 @@ void separable_field(const SeparableTerms& terms, const FrequencyGrid& grid, con
                      const FieldTarget& target, const Exec& exec) {
     CHECK(target.stride >= grid.width);
     CHECK(!params.add || (target.re != nullptr && target.im != nullptr));
-    const FrequencyRamp rows = row_ramp(grid), columns{grid.first_u, grid.step_u, grid.width};
-    const Factors a = factors_of(terms.y, rows, exec), b = factors_of(terms.x, columns, exec);
+    // The derivative by v is odd where F is even: its rows come in no conjugate pairs.
+    const bool slope_u = params.slope == Slope::u, slope_v = params.slope == Slope::v;
+    const int middle = slope_v ? -1 : mirror_row(grid);
+    const FrequencyRamp rows = row_ramp(grid, middle), columns{grid.first_u, grid.step_u, grid.width};
+    const Factors a = factors_of(terms.y, rows, slope_v, exec),
+                  b = factors_of(terms.x, columns, slope_u, exec);
     const ProductPanels panels{a.re.data(), a.imaginary(), b.re.data(), b.imaginary(), terms.count()};
 
     ProductTarget to{target.re, target.im, target.power, target.stride, grid.width, grid.height};
-    to.mirrored = mirror_row(grid) >= 0;
-    to.origin = to.mirrored ? mirror_row(grid) : 0;
+    to.mirrored = middle >= 0;
+    to.origin = std::max(middle, 0);
     to.add = params.add;
     if (params.blocks != nullptr) {
         to.active = params.blocks->active.data();
@@ -81,7 +89,7 @@ void separable_field(const SeparableTerms& terms, const FrequencyGrid& grid, con
 }
 
 double separable_cost_ns(const SeparableTerms& terms, const FrequencyGrid& grid) {
-    const double rows = row_ramp(grid).count, columns = grid.width;
+    const double rows = row_ramp(grid, mirror_row(grid)).count, columns = grid.width;
     const double intervals_x = static_cast<double>(terms.x.x0.size()),
                  intervals_y = static_cast<double>(terms.y.x0.size());
     const double pixels = static_cast<double>(grid.width) * grid.height;

@@ -17,9 +17,17 @@ struct BlockSet {
     std::vector<std::uint8_t> active;  ///< 0 or 1
 };
 
+/// What of F is wanted.
+enum class Slope {
+    none,  ///< F itself
+    u,     ///< its derivative by u, times the grid's step_u
+    v,     ///< its derivative by v, times step_v
+};
+
 struct SeparableParams {
     bool add = false;                  ///< to the target's re and im, which must be there
     const BlockSet* blocks = nullptr;  ///< pixels of other blocks are left alone; null: all are wanted
+    Slope slope = Slope::none;
 };
 
 /// Row of the grid at which v = 0, or -1: the rows around it come in conjugate pairs.
