@@ -1,5 +1,6 @@
 #include "optics/mask_changes.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace obscura {
@@ -40,18 +41,46 @@ LineChanges row_changes(ImageView<const float> mask) {
     return changes;
 }
 
-bool has_mirror(const LineChanges& changes, int texels) {
-    for (std::size_t line = 0; line + 1 < changes.first.size(); ++line) {
-        auto low = static_cast<std::size_t>(changes.first[line]),
-             high = static_cast<std::size_t>(changes.first[line + 1]);
-        for (; low < high; ++low) {
-            --high;
-            if (changes.edge[low] != texels - changes.edge[high] ||
-                changes.weight[low] != -changes.weight[high])
-                return false;
-        }
+namespace {
+
+/// The changes of one line.
+struct Line {
+    const std::int32_t* edge;
+    const double* weight;
+    std::size_t size;
+};
+
+Line line_of(const LineChanges& changes, std::size_t line) {
+    const auto first = static_cast<std::size_t>(changes.first[line]);
+    return {changes.edge.data() + first, changes.weight.data() + first,
+            static_cast<std::size_t>(changes.first[line + 1]) - first};
+}
+
+bool is_mirrored(const Line& line, int texels) {
+    for (std::size_t i = 0; i < line.size; ++i) {
+        const std::size_t j = line.size - 1 - i;
+        if (line.edge[i] != texels - line.edge[j] || line.weight[i] != -line.weight[j]) return false;
     }
     return true;
+}
+
+bool same(const Line& a, const Line& b) {
+    return a.size == b.size && std::equal(a.edge, a.edge + a.size, b.edge) &&
+           std::equal(a.weight, a.weight + a.size, b.weight);
+}
+
+}  // namespace
+
+MaskSymmetry symmetry_of(const LineChanges& changes, int texels) {
+    MaskSymmetry symmetry{true, true};
+    const auto lines = static_cast<std::size_t>(changes.lines());
+    for (std::size_t y = 0; y < lines; ++y) {
+        const Line line = line_of(changes, y);
+        symmetry.left_right = symmetry.left_right && is_mirrored(line, texels);
+        if (y < lines / 2)
+            symmetry.top_bottom = symmetry.top_bottom && same(line, line_of(changes, lines - 1 - y));
+    }
+    return symmetry;
 }
 
 std::vector<std::int32_t> distinct_edges(const LineChanges& changes, int texels) {

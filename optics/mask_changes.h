@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "optics/aperture.h"
 
 namespace obscura {
 
@@ -24,7 +25,7 @@ LineChanges row_changes(ImageView<const float> mask);
 /// Edges at which any line changes, ascending.
 std::vector<std::int32_t> distinct_edges(const LineChanges& changes, int texels);
 
-/// True when every line is its own mirror image (MaskSymmetry::left_right), told from its changes alone.
-bool has_mirror(const LineChanges& changes, int texels);
+/// mask_symmetry(), told from the changes of the rows alone.
+MaskSymmetry symmetry_of(const LineChanges& changes, int texels);
 
 }  // namespace obscura

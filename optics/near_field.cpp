@@ -45,6 +45,12 @@ bool is_binary(const Image<float>& mask) {
     return true;
 }
 
+NearFieldCase case_of(ImageView<const float> mask, const PlaneGrid& grid, double turns) {
+    NearFieldCase c{mask, grid, turns, row_changes(mask), {}};
+    c.symmetry = symmetry_of(c.changes, mask.width);
+    return c;
+}
+
 }  // namespace
 
 PlaneGrid centred_plane(int size, double extent_texels) {
@@ -83,21 +89,33 @@ NearFieldCase near_field_case(const Aperture& aperture, const PlaneGrid& grid, c
     if (params.coarse_levels < 0 || params.coarse_levels > 12)
         throw InputError("", fmt::format("coarse levels lie in 0 to 12, not at {}", params.coarse_levels));
     const double turns = turns_of(aperture, params);
-    if (params.coarse_levels == 0) return {aperture.mask.view(), grid, turns};
+    if (params.coarse_levels == 0) return case_of(aperture.mask.view(), grid, turns);
 
     coarse = reduce(aperture, params.coarse_levels, is_binary(aperture.mask));
     const double side = 1 << params.coarse_levels;
     // reduce() keeps the upper left corner; the centre moves where the size is no multiple of `side`.
-    NearFieldCase c{coarse.mask.view(), grid, turns * side * side};
-    c.grid.step = grid.step / side;
-    c.grid.first_x = (grid.first_x + 0.5 * aperture.mask.width) / side - 0.5 * coarse.mask.width;
-    c.grid.first_y = (grid.first_y + 0.5 * aperture.mask.height) / side - 0.5 * coarse.mask.height;
-    return c;
+    PlaneGrid to = grid;
+    to.step = grid.step / side;
+    to.first_x = (grid.first_x + 0.5 * aperture.mask.width) / side - 0.5 * coarse.mask.width;
+    to.first_y = (grid.first_y + 0.5 * aperture.mask.height) / side - 0.5 * coarse.mask.height;
+    return case_of(coarse.mask.view(), to, turns * side * side);
 }
 
+namespace {
+
+/// True when pixels mirror onto pixels.
 bool is_symmetric(const PlaneAxis& axis) {
     const double extent = (axis.pixels - 1) * axis.step;
     return std::fabs(2 * axis.first + extent) <= 1e-13 * (extent + axis.texels);
+}
+
+}  // namespace
+
+PlanePart part_to_compute(const NearFieldCase& c) {
+    PlanePart part{c.grid.width, c.grid.height};
+    if (c.symmetry.left_right && is_symmetric(c.horizontal())) part.columns = (part.columns + 1) / 2;
+    if (c.symmetry.top_bottom && is_symmetric(c.vertical())) part.rows = (part.rows + 1) / 2;
+    return part;
 }
 
 namespace {

@@ -14,7 +14,7 @@
 
 namespace obscura {
 void near_field_hybrid(const NearFieldCase& c, const FieldTarget& target, const Exec& exec) {
-    const LineChanges changes = row_changes(c.mask);
+    const LineChanges& changes = c.changes;
     const EdgeTable table(c.horizontal(), c.turns, distinct_edges(changes, c.mask.width), exec);
     std::vector<std::int64_t> offsets(changes.edge.size());
     for (std::size_t i = 0; i < offsets.size(); ++i)
@@ -23,8 +23,8 @@ void near_field_hybrid(const NearFieldCase& c, const FieldTarget& target, const 
     // of its changes is the opposite.
     const ColumnConvolution convolution(c.vertical(), c.turns, {0, 0.5}, exec.isa);
 
-    const bool mirrored = has_mirror(changes, c.mask.width) && is_symmetric(c.horizontal());
-    const int width = mirrored ? (c.grid.width + 1) / 2 : c.grid.width;
+    const int width = part_to_compute(c).columns;
+    const bool mirrored = width < c.grid.width;
     parallel_blocks(
         static_cast<std::size_t>(width), ColumnTile::columns, exec, [&](std::size_t begin, std::size_t end) {
             ColumnScratch scratch(convolution.length());

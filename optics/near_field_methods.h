@@ -5,6 +5,7 @@
 
 #include "core/isa.h"
 #include "optics/field.h"
+#include "optics/mask_changes.h"
 #include "optics/near_field.h"
 #include "optics/near_field_axis.h"
 #include "optics/quads.h"
@@ -16,6 +17,8 @@ struct NearFieldCase {
     ImageView<const float> mask;
     PlaneGrid grid;
     double turns = 0;
+    LineChanges changes;  ///< of the mask's rows
+    MaskSymmetry symmetry;
     PlaneAxis horizontal() const { return {mask.width, grid.width, grid.first_x, grid.step}; }
     PlaneAxis vertical() const { return {mask.height, grid.height, grid.first_y, grid.step}; }
 };
@@ -28,8 +31,12 @@ NearFieldCase near_field_case(const Aperture& aperture, const PlaneGrid& grid, c
 /// The planner's choice; `method` unless that is automatic. Throws InputError when it cannot serve the plane.
 NearFieldReport plan_near_field_case(const NearFieldCase& c, NearFieldMethod method);
 
-/// True when pixels mirror onto pixels.
-bool is_symmetric(const PlaneAxis& axis);
+/// What of the plane must be computed, from its upper left corner on: half an axis along which mask and plane
+/// both are their own mirror images, the whole of any other.
+struct PlanePart {
+    int columns = 0, rows = 0;
+};
+PlanePart part_to_compute(const NearFieldCase& c);
 
 /// Equation 3.19 as it stands: quads x pixels, in double.
 void near_field_direct(const NearFieldCase& c, const QuadList& quads, const FieldTarget& target,

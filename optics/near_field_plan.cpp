@@ -25,7 +25,8 @@ constexpr double change_ns = 2.2;      ///< per change or interval end, sixteen 
 constexpr double plan_ns = 26;         ///< twiddles, per element
 constexpr double product_ns = 0.105;   ///< per term and pixel
 constexpr double texel_scan_ns = 0.3;  ///< finding changes
-constexpr double texel_term_ns = 2.0;  ///< grouping columns and rows
+constexpr double texel_term_ns = 1.2;  ///< grouping columns and rows
+constexpr double end_term_ns = 110;    ///< the same, per end of a run in distinct ones
 constexpr double texel_lane_ns = 0.8;  ///< bringing sixteen rows side by side
 constexpr double pixel_ns = 1.2;       ///< writing both parts
 
@@ -38,43 +39,56 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31);
 }
 
-std::int64_t distinct_but_zero(std::vector<std::uint64_t> values) {
-    std::sort(values.begin(), values.end());
-    const auto end = std::unique(values.begin(), values.end());
-    return end - values.begin() - std::count(values.begin(), end, std::uint64_t{0});
+/// A line of texels by its number, and how many runs end in it.
+struct NamedLine {
+    std::uint64_t name = 0;  ///< 0: no texel is open
+    std::int64_t ends = 0;
+};
+
+/// How many different lines are not empty; `ends` gets those of one of each.
+std::int64_t distinct(std::vector<NamedLine> lines, std::int64_t& ends) {
+    std::sort(lines.begin(), lines.end(),
+              [](const NamedLine& a, const NamedLine& b) { return a.name < b.name; });
+    std::int64_t different = 0;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (lines[i].name == 0 || (i > 0 && lines[i].name == lines[i - 1].name)) continue;
+        ++different;
+        ends += lines[i].ends;
+    }
+    return different;
 }
 
 /// What the costs depend on, told from the changes alone.
 struct MaskCounts {
-    std::int64_t changes = 0, columns = 0, rows = 0;  ///< distinct ones, empty ones not counted
-    bool left_right = false;
+    std::int64_t columns = 0, rows = 0;  ///< distinct ones, empty ones not counted
+    std::int64_t ends = 0;               ///< of runs in the distinct rows, and of bands of equal rows
     std::int64_t terms() const { return std::min(columns, rows); }
 };
 
-MaskCounts count(ImageView<const float> mask) {
-    const LineChanges changes = row_changes(mask);
+MaskCounts count(const NearFieldCase& c) {
+    const LineChanges& changes = c.changes;
     MaskCounts counts;
-    counts.changes = static_cast<std::int64_t>(changes.edge.size());
-    counts.left_right = has_mirror(changes, mask.width);
     // Sums of random multiples of the changes: along a row they name the row; down a column, added up from
     // the left, the column.
-    std::vector<std::uint64_t> rows, columns(static_cast<std::size_t>(mask.width) + 1, 0);
-    for (std::size_t y = 0; y < static_cast<std::size_t>(mask.height); ++y) {
-        std::uint64_t row = 0;
+    std::vector<NamedLine> rows, columns(static_cast<std::size_t>(c.mask.width) + 1);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(c.mask.height); ++y) {
+        NamedLine row{0, changes.first[y + 1] - changes.first[y]};
         for (auto i = static_cast<std::size_t>(changes.first[y]);
              i < static_cast<std::size_t>(changes.first[y + 1]); ++i) {
             const auto edge = static_cast<std::size_t>(changes.edge[i]);
             const auto weight =
                 static_cast<std::uint64_t>(static_cast<std::int64_t>(changes.weight[i] * 0x1p40));
-            row += weight * mixed(edge + 1);
-            columns[edge] += weight * mixed(y + 1);
+            row.name += weight * mixed(edge + 1);
+            columns[edge].name += weight * mixed(y + 1);
         }
+        if (rows.empty() || row.name != rows.back().name) counts.ends += 2;  // a band of equal rows
         rows.push_back(row);
     }
     for (std::size_t x = 1; x < columns.size(); ++x)
-        columns[x] += columns[x - 1];
-    counts.rows = distinct_but_zero(std::move(rows));
-    counts.columns = distinct_but_zero(std::move(columns));
+        columns[x].name += columns[x - 1].name;
+    counts.rows = distinct(std::move(rows), counts.ends);
+    std::int64_t unused = 0;
+    counts.columns = distinct(std::move(columns), unused);
     return counts;
 }
 
@@ -108,24 +122,22 @@ double convolution_cost_ns(const PlaneAxis& axis, double columns) {
 }
 
 double edges_cost_ns(const NearFieldCase& c, const MaskCounts& counts) {
-    const MaskSymmetry symmetry = mask_symmetry(c.mask);
+    const auto [columns, rows] = part_to_compute(c);
     const PlaneAxis x = c.horizontal(), y = c.vertical();
-    const double columns = symmetry.left_right && is_symmetric(x) ? 0.5 * x.pixels : x.pixels;
-    const double rows = symmetry.top_bottom && is_symmetric(y) ? 0.5 * y.pixels : y.pixels;
     const double terms = static_cast<double>(counts.terms());
-    const double ends = static_cast<double>(counts.changes) + 2 * terms;
+    const double ends = static_cast<double>(counts.ends);
     const double edges_x = std::min<double>(c.mask.width, 2 * static_cast<double>(counts.columns)),
                  edges_y = std::min<double>(c.mask.height, 2 * static_cast<double>(counts.rows));
-    return texel_term_ns * texels_of(c) + table_cost_ns(x, edges_x) + table_cost_ns(y, edges_y) +
-           change_ns * ends * (columns + rows) / 16 + product_ns * terms * columns * rows +
-           pixel_ns * pixels_of(c.grid);
+    return texel_term_ns * texels_of(c) + end_term_ns * ends + table_cost_ns(x, edges_x) +
+           table_cost_ns(y, edges_y) + change_ns * ends * (columns + rows) / 16 +
+           product_ns * terms * columns * rows + pixel_ns * pixels_of(c.grid);
 }
 
 double hybrid_cost_ns(const NearFieldCase& c, const MaskCounts& counts) {
     const PlaneAxis x = c.horizontal();
-    const double columns = counts.left_right && is_symmetric(x) ? 0.5 * x.pixels : x.pixels;
+    const double columns = part_to_compute(c).columns;
     const double edges = std::min<double>(c.mask.width, 2 * static_cast<double>(counts.columns));
-    const double ends = static_cast<double>(counts.changes) + c.mask.height;
+    const double ends = static_cast<double>(c.changes.edge.size()) + c.mask.height;
     return texel_scan_ns * texels_of(c) + table_cost_ns(x, edges) + change_ns * ends * columns / 16 +
            convolution_cost_ns(c.vertical(), columns) + pixel_ns * pixels_of(c.grid);
 }
@@ -158,7 +170,7 @@ NearFieldReport plan_near_field_case(const NearFieldCase& c, NearFieldMethod met
     report.reason = fmt::format("{}: as asked for", near_field_method_name(method));
     if (method != NearFieldMethod::automatic) return report;
 
-    const MaskCounts counts = count(c.mask);
+    const MaskCounts counts = count(c);
     std::array<Choice, 3> choices{Choice{NearFieldMethod::edges, edges_cost_ns(c, counts) * 1e-6},
                                   Choice{NearFieldMethod::hybrid, hybrid_cost_ns(c, counts) * 1e-6},
                                   Choice{NearFieldMethod::fft, fft_cost_ns(c) * 1e-6}};
@@ -167,9 +179,9 @@ NearFieldReport plan_near_field_case(const NearFieldCase& c, NearFieldMethod met
     report.method = choices[0].method;
     report.cost_ms = choices[0].ms;
     report.edges = counts.terms();
-    report.reason =
-        fmt::format("{}: {:.3g} ms for {} distinct columns or rows and {} changes; ",
-                    near_field_method_name(choices[0].method), choices[0].ms, counts.terms(), counts.changes);
+    report.reason = fmt::format("{}: {:.3g} ms for {} distinct columns or rows and {} changes; ",
+                                near_field_method_name(choices[0].method), choices[0].ms, counts.terms(),
+                                c.changes.edge.size());
     report.reason +=
         std::isfinite(choices[1].ms)
             ? fmt::format("next {} with {:.3g} ms", near_field_method_name(choices[1].method), choices[1].ms)

@@ -101,11 +101,7 @@ void mirror(float* plane, const PlaneGrid& grid, std::ptrdiff_t stride, int colu
 void near_field_separable(const NearFieldCase& c, const SeparableTerms& terms, const BlockSet* blocks,
                           const FieldTarget& target, const Exec& exec) {
     CHECK(target.stride >= c.grid.width);
-    const MaskSymmetry symmetry = mask_symmetry(c.mask);
-    const int columns =
-        symmetry.left_right && is_symmetric(c.horizontal()) ? (c.grid.width + 1) / 2 : c.grid.width;
-    const int rows =
-        symmetry.top_bottom && is_symmetric(c.vertical()) ? (c.grid.height + 1) / 2 : c.grid.height;
+    const auto [columns, rows] = part_to_compute(c);
     const Factors a = factors_of(terms.y, c.vertical(), rows, c.turns, exec);
     Factors b = factors_of(terms.x, c.horizontal(), columns, c.turns, exec);
     divide_by_2i(b);
