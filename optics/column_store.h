@@ -28,17 +28,24 @@ struct ColumnStrip {
     const std::uint8_t* keep = nullptr;
 };
 
-/// store_columns16: re and im are the spectra of sixteen columns of complex sums (see filters/fft.h for their
-/// layout). A mirrored strip shows the conjugate of the opposite sample.
-/// store_real_columns16: two groups of sixteen columns whose sums were real were transformed as one, the
-/// first as the real, the second as the imaginary part; `strips` are of the first, `partner_strips` of the
-/// second group. Columns need no conjugate: their factors take care of what is mirrored.
-#define OBSCURA_COLUMN_STORE                                                                                 \
-    void store_columns16(const float* re, const float* im, const SpectrumRows& rows,                         \
-                         const ColumnStrip* strips, int strip_count, const FieldTarget& target) noexcept;    \
-    void store_real_columns16(const float* re, const float* im, const SpectrumRows& rows,                    \
-                              const ColumnStrip* strips, int strip_count, const ColumnStrip* partner_strips, \
-                              int partner_count, const FieldTarget& target) noexcept;
+/// Spectra of sixteen columns (see filters/fft.h for their layout) and the strips that show them; of two
+/// times sixteen, when two groups with real sums were transformed as the real and the imaginary part of one.
+struct SpectrumBlock {
+    const float *re = nullptr, *im = nullptr;
+    const ColumnStrip* strips = nullptr;
+    int strip_count = 0;
+    const ColumnStrip* partner_strips = nullptr;  ///< of the imaginary part's group
+    int partner_count = 0;
+};
+
+/// store_columns16: blocks of complex sums. A mirrored strip shows the conjugate of the opposite sample.
+/// store_real_columns16: blocks of pairs of groups. Columns need no conjugate: their factors take care of
+/// what is mirrored. Neighbouring blocks in one call write neighbouring memory.
+#define OBSCURA_COLUMN_STORE                                                                    \
+    void store_columns16(const SpectrumBlock* blocks, int count, const SpectrumRows& rows,      \
+                         const FieldTarget& target) noexcept;                                   \
+    void store_real_columns16(const SpectrumBlock* blocks, int count, const SpectrumRows& rows, \
+                              const FieldTarget& target) noexcept;
 namespace ref {
 OBSCURA_COLUMN_STORE
 }

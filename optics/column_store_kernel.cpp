@@ -28,11 +28,10 @@ OBSCURA_INLINE void store_kept(float* to, const F32& value, const ColumnStrip& s
     }
 }
 
-/// Sample k of a strip into every row that shows it.
-OBSCURA_INLINE void put(const SpectrumRows& rows, std::int64_t k, const ColumnStrip& strip, const F32& re,
+/// One sample of a strip into every row that shows it: `first` and those a period apart.
+OBSCURA_INLINE void put(const SpectrumRows& rows, int first, const ColumnStrip& strip, const F32& re,
                         const F32& im, const FieldTarget& target) {
     const int step = 1 << rows.log2_period;
-    const int first = first_row(rows, k);
     if (target.power != nullptr) {
         const F32 power = (re * re + im * im) * load(strip.power);
         for (int r = first; r < rows.count; r += step) {
@@ -52,40 +51,53 @@ OBSCURA_INLINE void put(const SpectrumRows& rows, std::int64_t k, const ColumnSt
     }
 }
 
+/// The strips of one group: sample k to its own rows, and its conjugate to those of -k.
+OBSCURA_INLINE void put_both(const SpectrumRows& rows, int own, int opposite, const ColumnStrip* strips,
+                             int count, const F32& re, const F32& im, bool twice, const FieldTarget& target) {
+    const F32 conjugate = splat(0.0f) - im;
+    for (int s = 0; s < count; ++s) {
+        put(rows, own, strips[s], re, im, target);
+        if (twice) put(rows, opposite, strips[s], re, conjugate, target);
+    }
+}
+
 }  // namespace
 
-void store_columns16(const float* re, const float* im, const SpectrumRows& rows, const ColumnStrip* strips,
-                     int strip_count, const FieldTarget& target) noexcept {
+void store_columns16(const SpectrumBlock* blocks, int count, const SpectrumRows& rows,
+                     const FieldTarget& target) noexcept {
     for (std::int64_t k = 0; k < std::int64_t{1} << rows.log2_period; ++k) {
         const std::size_t at = std::size_t{16} * rows.position[k];
-        const F32 a = load(re + at), b = load(im + at);
-        for (int s = 0; s < strip_count; ++s) {
-            if (strips[s].mirrored)
-                put(rows, -k, strips[s], a, splat(0.0f) - b, target);
-            else
-                put(rows, k, strips[s], a, b, target);
+        const int own = first_row(rows, k), opposite = first_row(rows, -k);
+        for (const SpectrumBlock* block = blocks; block != blocks + count; ++block) {
+            const F32 a = load(block->re + at), b = load(block->im + at);
+            for (int s = 0; s < block->strip_count; ++s) {
+                const ColumnStrip& strip = block->strips[s];
+                if (strip.mirrored)
+                    put(rows, opposite, strip, a, splat(0.0f) - b, target);
+                else
+                    put(rows, own, strip, a, b, target);
+            }
         }
     }
 }
 
-void store_real_columns16(const float* re, const float* im, const SpectrumRows& rows,
-                          const ColumnStrip* strips, int strip_count, const ColumnStrip* partner_strips,
-                          int partner_count, const FieldTarget& target) noexcept {
+void store_real_columns16(const SpectrumBlock* blocks, int count, const SpectrumRows& rows,
+                          const FieldTarget& target) noexcept {
     const std::int64_t period = std::int64_t{1} << rows.log2_period;
-    const F32 half = splat(0.5f), zero = splat(0.0f);
+    const F32 half = splat(0.5f);
     for (std::int64_t k = 0; k <= period / 2; ++k) {
         const std::int64_t other = (period - k) & (period - 1);
         const std::size_t at = std::size_t{16} * rows.position[k];
-        const std::size_t opposite = std::size_t{16} * rows.position[other];
-        const F32 a = load(re + at), b = load(im + at), c = load(re + opposite), d = load(im + opposite);
-        // X = A + i B, A and B with conjugate symmetry: X(k) and X(-k) tell them apart.
-        const F32 value_re[2] = {half * (a + c), half * (b + d)};
-        const F32 value_im[2] = {half * (b - d), half * (c - a)};
-        for (int s = 0; s < strip_count + partner_count; ++s) {
-            const int group = s < strip_count ? 0 : 1;
-            const ColumnStrip& strip = group == 0 ? strips[s] : partner_strips[s - strip_count];
-            put(rows, k, strip, value_re[group], value_im[group], target);
-            if (other != k) put(rows, -k, strip, value_re[group], zero - value_im[group], target);
+        const std::size_t from_opposite = std::size_t{16} * rows.position[other];
+        const int own = first_row(rows, k), opposite = first_row(rows, -k);
+        for (const SpectrumBlock* block = blocks; block != blocks + count; ++block) {
+            // X = A + i B, A and B with conjugate symmetry: X(k) and X(-k) tell them apart.
+            const F32 a = load(block->re + at), b = load(block->im + at);
+            const F32 c = load(block->re + from_opposite), d = load(block->im + from_opposite);
+            put_both(rows, own, opposite, block->strips, block->strip_count, half * (a + c), half * (b - d),
+                     other != k, target);
+            put_both(rows, own, opposite, block->partner_strips, block->partner_count, half * (b + d),
+                     half * (c - a), other != k, target);
         }
     }
 }

@@ -37,41 +37,47 @@ void put(const SpectrumRows& rows, std::int64_t k, const ColumnStrip& strip, int
 
 }  // namespace
 
-void store_columns16(const float* re, const float* im, const SpectrumRows& rows, const ColumnStrip* strips,
-                     int strip_count, const FieldTarget& target) noexcept {
+void store_columns16(const SpectrumBlock* blocks, int count, const SpectrumRows& rows,
+                     const FieldTarget& target) noexcept {
     for (std::int64_t k = 0; k < std::int64_t{1} << rows.log2_period; ++k) {
         const std::uint32_t at = 16 * rows.position[k];
-        for (int s = 0; s < strip_count; ++s) {
-            for (int lane = 0; lane < 16; ++lane) {
-                const float a = re[at + static_cast<std::uint32_t>(lane)];
-                const float b = im[at + static_cast<std::uint32_t>(lane)];
-                const bool mirrored = strips[s].mirrored;
-                put(rows, mirrored ? -k : k, strips[s], lane, {a, mirrored ? 0.0f - b : b}, target);
+        for (const SpectrumBlock* block = blocks; block != blocks + count; ++block) {
+            for (int s = 0; s < block->strip_count; ++s) {
+                for (std::uint32_t lane = 0; lane < 16; ++lane) {
+                    const float a = block->re[at + lane], b = block->im[at + lane];
+                    const ColumnStrip& strip = block->strips[s];
+                    if (strip.mirrored)
+                        put(rows, -k, strip, static_cast<int>(lane), {a, 0.0f - b}, target);
+                    else
+                        put(rows, k, strip, static_cast<int>(lane), {a, b}, target);
+                }
             }
         }
     }
 }
 
-void store_real_columns16(const float* re, const float* im, const SpectrumRows& rows,
-                          const ColumnStrip* strips, int strip_count, const ColumnStrip* partner_strips,
-                          int partner_count, const FieldTarget& target) noexcept {
+void store_real_columns16(const SpectrumBlock* blocks, int count, const SpectrumRows& rows,
+                          const FieldTarget& target) noexcept {
     const std::int64_t period = std::int64_t{1} << rows.log2_period;
     for (std::int64_t k = 0; k <= period / 2; ++k) {
-        const std::uint32_t at = 16 * rows.position[k];
-        const std::uint32_t opposite = 16 * rows.position[(period - k) & (period - 1)];
-        for (std::uint32_t lane = 0; lane < 16; ++lane) {
-            // X = A + i B, A and B with conjugate symmetry: X(k) and X(-k) tell them apart.
-            const float a = re[at + lane], b = im[at + lane];
-            const float c = re[opposite + lane], d = im[opposite + lane];
-            const Complex first{0.5f * (a + c), 0.5f * (b - d)};
-            const Complex second{0.5f * (b + d), 0.5f * (c - a)};
-            for (int s = 0; s < strip_count + partner_count; ++s) {
-                const bool own = s < strip_count;
-                const ColumnStrip& strip = own ? strips[s] : partner_strips[s - strip_count];
-                const Complex value = own ? first : second;
-                put(rows, k, strip, static_cast<int>(lane), value, target);
-                if (((period - k) & (period - 1)) != k)
-                    put(rows, -k, strip, static_cast<int>(lane), {value.re, 0.0f - value.im}, target);
+        const std::int64_t other = (period - k) & (period - 1);
+        for (const SpectrumBlock* block = blocks; block != blocks + count; ++block) {
+            for (int s = 0; s < block->strip_count + block->partner_count; ++s) {
+                const bool own = s < block->strip_count;
+                const ColumnStrip& strip =
+                    own ? block->strips[s] : block->partner_strips[s - block->strip_count];
+                for (std::uint32_t lane = 0; lane < 16; ++lane) {
+                    // X = A + i B, A and B with conjugate symmetry: X(k) and X(-k) tell them apart.
+                    const std::uint32_t at = 16 * rows.position[k] + lane;
+                    const std::uint32_t opposite = 16 * rows.position[other] + lane;
+                    const float a = block->re[at], b = block->im[at];
+                    const float c = block->re[opposite], d = block->im[opposite];
+                    const Complex value = own ? Complex{0.5f * (a + c), 0.5f * (b - d)}
+                                              : Complex{0.5f * (b + d), 0.5f * (c - a)};
+                    put(rows, k, strip, static_cast<int>(lane), value, target);
+                    if (other != k)
+                        put(rows, -k, strip, static_cast<int>(lane), {value.re, 0.0f - value.im}, target);
+                }
             }
         }
     }

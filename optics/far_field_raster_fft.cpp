@@ -53,20 +53,27 @@ void far_field_raster_fft(ImageView<const float> mask, const NaturalTransform& t
     CHECK(mask.width == t.width && mask.height == t.height);
     const RowSpectra spectra = transform_rows(mask, t, exec);
     const int groups = column_groups(t.grid.u);
-    const int workers = std::min(groups, 4 * (exec.threads > 0 ? exec.threads : hardware_threads()));
-    parallel_for(static_cast<std::size_t>(workers), exec, [&](std::size_t worker) {
+    const int batch = groups_at_once(groups, t.v_plan.length(), exec);
+    parallel_for(static_cast<std::size_t>((groups + batch - 1) / batch), exec, [&](std::size_t item) {
         const std::size_t used = std::size_t{16} * static_cast<std::size_t>(mask.height);
-        Buffer<float> re(std::size_t{16} * static_cast<std::size_t>(t.v_plan.length())), im(re.size());
-        for (int group = static_cast<int>(worker); group < groups; group += workers) {
-            const std::size_t at = used * static_cast<std::size_t>(group);
-            std::fill(std::copy_n(spectra.re.data() + at, used, re.data()), re.end(), 0.0f);
-            std::fill(std::copy_n(spectra.im.data() + at, used, im.data()), im.end(), 0.0f);
-            fft16_forward(t.v_plan, re.data(), im.data(), exec.isa);
+        const std::size_t length = std::size_t{16} * static_cast<std::size_t>(t.v_plan.length());
+        Buffer<float> re(length * static_cast<std::size_t>(batch)), im(re.size());
+        std::vector<SpectrumBlock> blocks;
+        const int first = static_cast<int>(item) * batch;
+        for (int group = first; group < std::min(first + batch, groups); ++group) {
+            float* group_re = re.data() + length * blocks.size();
+            float* group_im = im.data() + length * blocks.size();
+            const std::size_t from = used * static_cast<std::size_t>(group);
+            std::fill(std::copy_n(spectra.re.data() + from, used, group_re), group_re + length, 0.0f);
+            std::fill(std::copy_n(spectra.im.data() + from, used, group_im), group_im + length, 0.0f);
+            fft16_forward(t.v_plan, group_re, group_im, exec.isa);
             const std::vector<ColumnStrip>& strips = t.texel_strips[static_cast<std::size_t>(group)].strips;
-            OBSCURA_DISPATCH(exec.isa, store_columns16, re.data(), im.data(), t.rows(), strips.data(),
-                             static_cast<int>(strips.size()), target);
-            if (group == 0) store_real_pair(re.data(), im.data(), t.rows(), t.grid.u, t.u_texel, target);
+            blocks.push_back(
+                {group_re, group_im, strips.data(), static_cast<int>(strips.size()), nullptr, 0});
         }
+        OBSCURA_DISPATCH(exec.isa, store_columns16, blocks.data(), static_cast<int>(blocks.size()), t.rows(),
+                         target);
+        if (first == 0) store_real_pair(re.data(), im.data(), t.rows(), t.grid.u, t.u_texel, target);
     });
 }
 

@@ -20,6 +20,7 @@
 #include "filters/fft.h"
 #include "optics/far_field_methods.h"
 #include "optics/natural_transform.h"
+#include "optics/row_runs.h"
 #include "optics/run_sums.h"
 
 namespace obscura {
@@ -36,16 +37,16 @@ std::size_t root_index(std::int64_t product, int period) {
     return static_cast<std::size_t>(product & (period - 1));
 }
 
-/// Memory of one worker.
+/// Memory of one worker: tables of one group, spectra of several.
 struct Scratch {
     Buffer<float> base_re, base_im, table_re, table_im, re, im;
-    explicit Scratch(const NaturalTransform& t) {
+    Scratch(const NaturalTransform& t, int groups) {
         const auto edges = static_cast<std::size_t>(t.width) + 1;
         base_re.reset(edges);
         base_im.reset(edges);
         table_re.reset(16 * edges);
         table_im.reset(16 * edges);
-        re.reset(16 * static_cast<std::size_t>(t.v_plan.length()));
+        re.reset(16 * static_cast<std::size_t>(t.v_plan.length()) * static_cast<std::size_t>(groups));
         im.reset(re.size());
     }
 };
@@ -81,49 +82,68 @@ float row_sum(const RowRuns& runs, int y, bool alternating) {
     return sum;
 }
 
-void sum_rows(const RunsOfMask& m, const float* table, Isa isa, Buffer<float>& out) {
-    OBSCURA_DISPATCH(isa, run_sums16, m.runs.table(), table, out.data());
-    std::fill(out.begin() + 16 * static_cast<std::ptrdiff_t>(m.transform.height), out.end(), 0.0f);
+void sum_rows(const RunsOfMask& m, const float* table, Isa isa, float* out) {
+    OBSCURA_DISPATCH(isa, run_sums16, m.runs.table(), table, out);
+    std::fill(out + 16 * m.transform.height, out + 16 * m.transform.v_plan.length(), 0.0f);
 }
 
-/// Sixteen columns of complex sums.
-void complex_group(const RunsOfMask& m, int group, Isa isa, Scratch& s, const FieldTarget& target) {
+/// Spectra of sixteen columns of complex sums.
+SpectrumBlock complex_group(const RunsOfMask& m, int group, Isa isa, Scratch& s, float* re, float* im) {
     const NaturalTransform& t = m.transform;
     fill_table(m, group, isa, s);
-    sum_rows(m, s.table_re.data(), isa, s.re);
-    sum_rows(m, s.table_im.data(), isa, s.im);
+    sum_rows(m, s.table_re.data(), isa, re);
+    sum_rows(m, s.table_im.data(), isa, im);
     for (int y = 0; group == 0 && y < t.height; ++y) {
-        s.re[16 * static_cast<std::size_t>(y)] = row_sum(m.runs, y, false);
-        s.im[16 * static_cast<std::size_t>(y)] = row_sum(m.runs, y, true);
+        re[16 * y] = row_sum(m.runs, y, false);
+        im[16 * y] = row_sum(m.runs, y, true);
     }
-    fft16_forward(t.v_plan, s.re.data(), s.im.data(), isa);
+    fft16_forward(t.v_plan, re, im, isa);
     const std::vector<ColumnStrip>& strips = t.edge_strips[static_cast<std::size_t>(group)].strips;
-    OBSCURA_DISPATCH(isa, store_columns16, s.re.data(), s.im.data(), t.rows(), strips.data(),
-                     static_cast<int>(strips.size()), target);
-    if (group == 0) store_real_pair(s.re.data(), s.im.data(), t.rows(), t.grid.u, t.u_texel, target);
+    return {re, im, strips.data(), static_cast<int>(strips.size()), nullptr, 0};
 }
 
-/// Two times sixteen columns of real sums.
-void mirrored_pair(const RunsOfMask& m, int group, Isa isa, Scratch& s, const FieldTarget& target) {
+/// Spectra of two times sixteen columns of real sums.
+SpectrumBlock mirrored_pair(const RunsOfMask& m, int group, Isa isa, Scratch& s, float* re, float* im) {
     const NaturalTransform& t = m.transform;
     const bool partner = group + 1 < column_groups(t.grid.u);
     fill_table(m, group, isa, s);
-    sum_rows(m, s.table_im.data(), isa, s.re);
+    sum_rows(m, s.table_im.data(), isa, re);
     for (int y = 0; group == 0 && y < t.height; ++y)
-        s.re[16 * static_cast<std::size_t>(y)] = row_sum(m.runs, y, false);
+        re[16 * y] = row_sum(m.runs, y, false);
     if (partner) {
         fill_table(m, group + 1, isa, s);
-        sum_rows(m, s.table_im.data(), isa, s.im);
+        sum_rows(m, s.table_im.data(), isa, im);
     } else {
-        std::fill(s.im.begin(), s.im.end(), 0.0f);
+        std::fill_n(im, 16 * t.v_plan.length(), 0.0f);
     }
-    fft16_forward(t.v_plan, s.re.data(), s.im.data(), isa);
+    fft16_forward(t.v_plan, re, im, isa);
     const auto own = static_cast<std::size_t>(group);
     const std::vector<ColumnStrip>& strips = t.mirror_strips[own].strips;
-    const std::vector<ColumnStrip>* others = partner ? &t.mirror_strips[own + 1].strips : nullptr;
-    OBSCURA_DISPATCH(isa, store_real_columns16, s.re.data(), s.im.data(), t.rows(), strips.data(),
-                     static_cast<int>(strips.size()), partner ? others->data() : nullptr,
-                     partner ? static_cast<int>(others->size()) : 0, target);
+    SpectrumBlock block{re, im, strips.data(), static_cast<int>(strips.size()), nullptr, 0};
+    if (partner) {
+        block.partner_strips = t.mirror_strips[own + 1].strips.data();
+        block.partner_count = static_cast<int>(t.mirror_strips[own + 1].strips.size());
+    }
+    return block;
+}
+
+/// Groups (or pairs) first to last - 1: transformed one by one, written together.
+void column_batch(const RunsOfMask& m, int first, int last, Isa isa, Scratch& s, const FieldTarget& target) {
+    const NaturalTransform& t = m.transform;
+    std::vector<SpectrumBlock> blocks;
+    for (int i = first; i < last; ++i) {
+        const std::ptrdiff_t at = std::ptrdiff_t{16} * t.v_plan.length() * (i - first);
+        float *re = s.re.data() + at, *im = s.im.data() + at;
+        blocks.push_back(m.mirrored ? mirrored_pair(m, 2 * i, isa, s, re, im)
+                                    : complex_group(m, i, isa, s, re, im));
+    }
+    const int count = static_cast<int>(blocks.size());
+    if (m.mirrored) {
+        OBSCURA_DISPATCH(isa, store_real_columns16, blocks.data(), count, t.rows(), target);
+        return;
+    }
+    OBSCURA_DISPATCH(isa, store_columns16, blocks.data(), count, t.rows(), target);
+    if (first == 0) store_real_pair(blocks[0].re, blocks[0].im, t.rows(), t.grid.u, t.u_texel, target);
 }
 
 }  // namespace
@@ -132,22 +152,17 @@ void far_field_runs(ImageView<const float> mask, const NaturalTransform& transfo
                     const Exec& exec) {
     CHECK(mask.width == transform.width && mask.height == transform.height);
     const NaturalAxis& u = transform.grid.u;
-    const bool mirrored = mask.width % 2 == 0 && u.log2_period > 0 && mask_symmetry(mask).left_right;
-    const RunsOfMask m{transform, row_runs(mask), mirrored};
+    RunsOfMask m{transform, row_runs(mask, exec.isa), false};
+    m.mirrored = mask.width % 2 == 0 && u.log2_period > 0 && same_left_and_right(m.runs, mask.width);
     const int groups = column_groups(u);
-    const int items = mirrored ? (groups + 1) / 2 : groups;
-    // A few items share one worker's memory; which ones does not matter to the result.
-    const int workers = std::min(items, 4 * (exec.threads > 0 ? exec.threads : hardware_threads()));
-    parallel_for(static_cast<std::size_t>(workers), exec, [&](std::size_t worker) {
-        Scratch scratch(transform);
-        for (int i = static_cast<int>(worker); i < items; i += workers) {
-            if (mirrored)
-                mirrored_pair(m, 2 * i, exec.isa, scratch, target);
-            else
-                complex_group(m, i, exec.isa, scratch, target);
-        }
+    const int items = m.mirrored ? (groups + 1) / 2 : groups;
+    const int batch = groups_at_once(items, transform.v_plan.length(), exec);
+    parallel_for(static_cast<std::size_t>((items + batch - 1) / batch), exec, [&](std::size_t b) {
+        Scratch scratch(transform, batch);
+        const int first = static_cast<int>(b) * batch;
+        column_batch(m, first, std::min(first + batch, items), exec.isa, scratch, target);
     });
-    if (mirrored) clear_half_period(u, transform.grid.v.count, target);
+    if (m.mirrored) clear_half_period(u, transform.grid.v.count, target);
 }
 
 void far_field_runs(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,

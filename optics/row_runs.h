@@ -5,17 +5,10 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/isa.h"
+#include "optics/run_table.h"
 
 namespace obscura {
-
-/// Runs of one row lie in [first[y], first[y + 1]). POD.
-struct RunTable {
-    int rows = 0;
-    const std::int32_t* first = nullptr;  ///< rows + 1
-    const std::int32_t* begin = nullptr;
-    const std::int32_t* end = nullptr;
-    const float* weight = nullptr;
-};
 
 /// Maximal runs [begin, end) of equal texels that are not 0, row by row, left to right.
 struct RowRuns {
@@ -26,6 +19,9 @@ struct RowRuns {
     }
 };
 
-RowRuns row_runs(ImageView<const float> mask);
+RowRuns row_runs(ImageView<const float> mask, Isa isa);
+
+/// True when every row is its own mirror image.
+bool same_left_and_right(const RowRuns& runs, int width);
 
 }  // namespace obscura

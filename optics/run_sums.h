@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "optics/row_runs.h"
+#include "optics/run_table.h"
 
 namespace obscura {
 

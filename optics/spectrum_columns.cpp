@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "core/num.h"
+#include "core/parallel.h"
 
 namespace obscura {
 namespace {
@@ -81,6 +82,13 @@ GroupStrips group_strips(const NaturalAxis& u, int group, int first_lane, Factor
 
 int column_groups(const NaturalAxis& u) {
     return std::max(1, u.period() / 2 / 16);
+}
+
+int groups_at_once(int groups, int length, const Exec& exec) {
+    constexpr int most = 8, samples = 8192;
+    const int threads = exec.threads > 0 ? exec.threads : hardware_threads();
+    const int balanced = threads == 1 ? groups : (groups + 4 * threads - 1) / (4 * threads);
+    return std::max(1, std::min({most, samples / length, balanced}));
 }
 
 GroupStrips complex_strips(const NaturalAxis& u, int group, const AxisFactors& factors) {

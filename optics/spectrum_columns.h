@@ -43,6 +43,11 @@ void store_real_pair(const float* re, const float* im, const SpectrumRows& rows,
 /// nothing.
 void clear_half_period(const NaturalAxis& u, int rows, const FieldTarget& target);
 
+/// How many groups (or pairs of groups) are transformed before they are written, so that what neighbours
+/// write is contiguous: as many as a megabyte holds, fewer when threads would be idle. No result depends on
+/// it.
+int groups_at_once(int groups, int length, const Exec& exec);
+
 SpectrumRows spectrum_rows(const NaturalAxis& v, const FftPlan& plan, const AxisFactors& factors);
 
 }  // namespace obscura
