@@ -18,6 +18,7 @@
 #include "core/buffer.h"
 #include "core/parallel.h"
 #include "filters/fft.h"
+#include "optics/far_field_chirp.h"
 #include "optics/far_field_methods.h"
 #include "optics/natural_transform.h"
 #include "optics/row_runs.h"
@@ -167,9 +168,10 @@ void far_field_runs(ImageView<const float> mask, const NaturalTransform& transfo
 
 void far_field_runs(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
                     const Exec& exec) {
-    const auto natural = natural_grid(mask.width, mask.height, grid);
-    CHECK(natural.has_value());
-    far_field_runs(mask, natural_transform(mask.width, mask.height, *natural), target, exec);
+    if (const auto natural = natural_grid(mask.width, mask.height, grid))
+        far_field_runs(mask, natural_transform(mask.width, mask.height, *natural), target, exec);
+    else
+        far_field_chirp(mask, grid, target, exec);
 }
 
 }  // namespace obscura

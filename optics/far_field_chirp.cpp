@@ -1,0 +1,159 @@
+// Far field by the runs of rows on any grid. Columns as in far_field_runs.cpp, each interval's transform in
+// closed form; over the rows a chirp-z transform, which turns equally spaced samples of a spectrum into a
+// convolution: with k y = (k^2 + y^2 - (k - y)^2) / 2,
+//
+//     sum over y of d_y e^(-2 pi i (v0 + k dv) y)
+//         = e^(-pi i dv k^2) * sum over y of [d_y e^(-2 pi i v0 y) e^(-pi i dv y^2)] e^(pi i dv (k - y)^2).
+//
+// L. I. Bluestein: A linear filtering approach to the computation of discrete Fourier transform, 1970; L.
+// Rabiner, R. Schafer, C. Rader: The chirp z-transform algorithm, 1969. Zooming in costs what a whole grid of
+// as many pixels costs, and no padding.
+
+#include "optics/far_field_chirp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/buffer.h"
+#include "core/num.h"
+#include "core/parallel.h"
+#include "filters/fft.h"
+#include "optics/chirp.h"
+#include "optics/phasor.h"
+#include "optics/row_runs.h"
+
+namespace obscura {
+namespace {
+
+/// Complex factors, one per element of a sequence.
+struct Factors {
+    std::vector<float> re, im;
+    void push_turns(double turns, double size) {
+        const double angle = -2 * num::pi * (turns - std::floor(turns + 0.5));
+        re.push_back(static_cast<float>(size * num::cos(angle)));
+        im.push_back(static_cast<float>(size * num::sin(angle)));
+    }
+};
+
+double sinc(double v) {
+    const double angle = num::pi * (v - 2 * std::floor(v / 2 + 0.5));
+    return v == 0 ? 1 : num::sin(angle) / (num::pi * v);
+}
+
+/// Rows first to first + count - 1 of the grid.
+struct Tile {
+    int first = 0, count = 0;
+    Factors before, after;  ///< before and after the convolution
+};
+
+struct ChirpTransform {
+    FftPlan plan;
+    Factors spectrum;  ///< of the chirp, 1 / length included, in the plan's order
+    std::vector<Tile> tiles;
+};
+
+ChirpTransform chirp_transform(int rows, const FrequencyGrid& grid) {
+    ChirpTransform t;
+    t.plan = fft_plan(chirp_log2_length(rows, grid.height));
+    const int length = t.plan.length(), most = length - rows + 1;
+    const double dv = grid.step_v, middle = 0.5 - rows / 2.0;  // of the first texel
+    for (int first = 0; first < grid.height; first += most) {
+        Tile tile{first, std::min(most, grid.height - first), {}, {}};
+        const double v0 = grid.first_v + first * dv;
+        for (int y = 0; y < rows; ++y)
+            tile.before.push_turns(v0 * (y + middle) + dv * y * y / 2, 1);
+        for (int k = 0; k < tile.count; ++k)
+            tile.after.push_turns(dv * k * middle + dv * k * k / 2, sinc(v0 + k * dv));
+        t.tiles.push_back(std::move(tile));
+    }
+    // The chirp from -(rows - 1) to most - 1, around the corner, is transformed in the first lane.
+    Buffer<float> re(16 * static_cast<std::size_t>(length)), im(re.size());
+    std::fill(re.begin(), re.end(), 0.0f);
+    std::fill(im.begin(), im.end(), 0.0f);
+    Factors chirp;
+    for (int m = 1 - rows; m < most; ++m) {
+        chirp.push_turns(-dv * m * m / 2, 1.0 / length);
+        const auto at = 16 * static_cast<std::size_t>(m < 0 ? m + length : m);
+        re[at] = chirp.re.back();
+        im[at] = chirp.im.back();
+    }
+    fft16_forward(t.plan, re.data(), im.data(), Isa::sse2);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(length); ++k) {
+        t.spectrum.re.push_back(re[16 * k]);
+        t.spectrum.im.push_back(im[16 * k]);
+    }
+    return t;
+}
+
+/// Runs with their ends relative to the middle, as intervals.
+struct RowTerms {
+    RowRuns runs;
+    std::vector<double> x0, x1;
+    BoxTerms terms() const {
+        return {runs.first.data(), x0.data(), x1.data(), runs.weight.data(),
+                static_cast<int>(runs.first.size()) - 1};
+    }
+};
+
+RowTerms row_terms(ImageView<const float> mask, Isa isa) {
+    RowTerms rows{row_runs(mask, isa), {}, {}};
+    for (std::size_t r = 0; r < rows.runs.begin.size(); ++r) {
+        rows.x0.push_back(rows.runs.begin[r] - mask.width / 2.0);
+        rows.x1.push_back(rows.runs.end[r] - mask.width / 2.0);
+    }
+    return rows;
+}
+
+}  // namespace
+
+int chirp_log2_length(int mask_height, int grid_height) {
+    int best = 0;
+    double least = 0;
+    for (int log2 = 0; log2 <= 16; ++log2) {
+        const int most = (1 << log2) - mask_height + 1;
+        if (most < 1) continue;
+        const double tiles = std::ceil(static_cast<double>(grid_height) / most);
+        const double cost = tiles * (log2 + 4) * (1 << log2);
+        if (best == 0 || cost < least) {
+            best = log2;
+            least = cost;
+        }
+    }
+    CHECK(best > 0 || (mask_height == 1 && grid_height == 1));
+    return best;
+}
+
+void far_field_chirp(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
+                     const Exec& exec) {
+    const ChirpTransform t = chirp_transform(mask.height, grid);
+    const RowTerms rows = row_terms(mask, exec.isa);
+    const BoxTerms terms = rows.terms();
+    const FrequencyRamp ramp{grid.first_u, grid.step_u, grid.width};
+    const std::size_t used = std::size_t{16} * static_cast<std::size_t>(mask.height);
+    const std::size_t length = std::size_t{16} * static_cast<std::size_t>(t.plan.length());
+    parallel_for(static_cast<std::size_t>((grid.width + 15) / 16), exec, [&](std::size_t group) {
+        Buffer<float> row_re(used), row_im(used), re(length), im(length);
+        const int column = 16 * static_cast<int>(group), lanes = std::min(16, grid.width - column);
+        OBSCURA_DISPATCH(exec.isa, box_panel, ramp, column, terms, row_re.data(), row_im.data());
+        for (const Tile& tile : t.tiles) {
+            std::fill(std::copy(row_re.begin(), row_re.end(), re.begin()), re.end(), 0.0f);
+            std::fill(std::copy(row_im.begin(), row_im.end(), im.begin()), im.end(), 0.0f);
+            OBSCURA_DISPATCH(exec.isa, scale_rows16, tile.before.re.data(), tile.before.im.data(),
+                             mask.height, re.data(), im.data());
+            fft16_forward(t.plan, re.data(), im.data(), exec.isa);
+            OBSCURA_DISPATCH(exec.isa, scale_rows16, t.spectrum.re.data(), t.spectrum.im.data(),
+                             t.plan.length(), re.data(), im.data());
+            fft16_backward(t.plan, re.data(), im.data(), exec.isa);
+            FieldTarget part = target;
+            const std::ptrdiff_t skip = target.stride * tile.first;
+            if (part.re != nullptr) part.re += skip;
+            if (part.im != nullptr) part.im += skip;
+            if (part.power != nullptr) part.power += skip;
+            OBSCURA_DISPATCH(exec.isa, store_rows16, re.data(), im.data(), tile.after.re.data(),
+                             tile.after.im.data(), tile.count, column, lanes, part);
+        }
+    });
+}
+
+}  // namespace obscura
