@@ -9,6 +9,7 @@
 
 #include "app/frame_shadows.h"
 #include "app/keyframes.h"
+#include "app/lens.h"
 #include "app/render_frame.h"
 #include "app/scene_build.h"
 #include "app/shadow_text.h"
@@ -32,7 +33,8 @@ std::string camera_text(const Camera& c) {
 std::string picture_text(const SceneDocument& document, const Scene& scene) {
     const FrameRange range = scene_frames(document);
     const SceneTable& frames = subtable(document.root, "frames");
-    const std::size_t keyframes = subtables(frames, "camera").size() + subtables(frames, "light").size();
+    const std::size_t keyframes = subtables(frames, "camera").size() + subtables(frames, "light").size() +
+                                  subtables(frames, "optics").size();
     std::string out = fmt::format("picture   {} x {} pixels, {} sample{} each, exposure {:+.4g} EV\n",
                                   scene.render.width, scene.render.height, scene.render.samples,
                                   scene.render.samples == 1 ? "" : "s", scene.render.exposure_ev);
@@ -164,6 +166,7 @@ std::string check_report(const CheckOptions& options) {
     const auto found = settle_resolutions(scene, Exec{});
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         out += light_text(scene.lights[i], found[i], scene);
+    out += lens_text(scene.optics, scene.render);
     return out + mesh_text(scene) + memory_text(scene) + "ok\n";
 }
 

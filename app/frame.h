@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,20 @@ struct FrameOptions {
                                                 ///< maps too, are left out
 };
 
+/// Glare of a frame whose scene has a lens.
+struct GlareStats {
+    double total_s = 0;        ///< all of it, the next included
+    double psf_s = 0;          ///< the lens's patterns; 0 when kept
+    bool kept = false;         ///< patterns of an earlier frame served
+    bool fft = false;          ///< else splats
+    std::int64_t sources = 0;  ///< pixels that clipped
+    int wavelengths = 0;
+    double cycles_per_px = 0;     ///< cycles of the pupil's diameter, at the mean wavelength
+    double captured = 0;          ///< share of the light that the kernel's square catches
+    double spread = 0, lost = 0;  ///< shares of the sources' light: left its pixel, left the picture
+    std::string reason;
+};
+
 /// Wall-clock seconds per stage, and exact counts.
 struct FrameStats {
     double surface_s = 0;     ///< table of surface triangles; 0 when kept
@@ -42,6 +57,7 @@ struct FrameStats {
     std::int64_t shadow_bytes = 0;         ///< all maps
     std::int64_t bytes = 0;                ///< estimate_memory(), checked before the work
     std::vector<LightShadowStats> lights;  ///< of the lights with shadows, in scene order
+    std::optional<GlareStats> glare;       ///< none: the scene has no lens
     std::vector<std::string> notices;      ///< what happened that one would want to know: caches made again
 };
 

@@ -119,6 +119,13 @@ SceneTable camera_at(const SceneDocument& document, double frame) {
     return camera;
 }
 
+SceneTable optics_at(const SceneDocument& document, double frame) {
+    SceneTable optics = subtable(document.root, "optics");
+    const SceneTable& frames = subtable(document.root, "frames");
+    animate(optics, subtables(frames, "optics"), keyframe_spec("optics"), frame, interpolation_of(frames));
+    return optics;
+}
+
 SceneTable light_at(const SceneDocument& document, const SceneTable& light, double frame) {
     SceneTable result = light;
     const SceneTable& frames = subtable(document.root, "frames");

@@ -1,5 +1,5 @@
 #pragma once
-// What camera and lights are at a frame.
+// What camera, lens and lights are at a frame.
 
 #include <optional>
 #include <string_view>
@@ -27,6 +27,8 @@ FrameRange scene_frames(const SceneDocument& document);
 
 /// The [camera] table with the keys that keyframes set put to their values at `frame`.
 SceneTable camera_at(const SceneDocument& document, double frame);
+/// The same for [optics], which must be there.
+SceneTable optics_at(const SceneDocument& document, double frame);
 /// The same for one of the document's lights.
 SceneTable light_at(const SceneDocument& document, const SceneTable& light, double frame);
 

@@ -35,6 +35,7 @@ constexpr Command commands[] = {
     {"dump", "Print the effective scene, or the description of the format", run_dump},
     {"info", "Print what a mesh file holds", run_info},
     {"diff", "Compare two pictures", run_diff},
+    {"diffraction", "Compute the light behind an aperture: far field, near field, colours", run_diffraction},
     {"bench", "Measure our methods beside their peers", run_bench},
     {"lesson", "Draw the picture of a lesson", run_lesson},
     {"version", "Print version, instruction sets and libraries", run_version},
@@ -44,7 +45,7 @@ std::string short_help() {
     std::string out =
         program_version() + ": renders scene files on the CPU\n\nUsage: obscura COMMAND [options]\n\n";
     for (const Command& c : commands)
-        out += fmt::format("  {:<9}{}\n", c.name, c.summary);
+        out += fmt::format("  {:<12}{}\n", c.name, c.summary);
     return out + "\n'obscura COMMAND --help' explains a command.\n";
 }
 

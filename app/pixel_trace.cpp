@@ -212,6 +212,7 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y, const Exec& exec, Frame
     }
     trace.radiance = trace.radiance * (1.0f / static_cast<float>(tiles.pattern.size()));
     story.say("  mean radiance {}", text_of(trace.radiance));
+    if (scene.optics.enabled) story.say("  without the glare that [optics] adds to the whole picture");
 
     const ToneParams tone{render.exposure_ev, render.tone};
     const double scale = num::exp2(render.exposure_ev);

@@ -167,6 +167,12 @@ void say_frame(const FrameReport& report, int verbosity) {
     }
     for (const LightShadowStats& light : s.lights)
         fmt::print(stderr, "{}", shadow_text(light));
+    if (!s.glare) return;
+    fmt::print(stderr, "  glare {:.3f} s, of it patterns {:.3f} s: {}\n", s.glare->total_s, s.glare->psf_s,
+               s.glare->reason);
+    if (s.glare->sources == 0) return;
+    fmt::print(stderr, "  {:.2f} % of their light left its pixel, {:.2f} % the picture; {} wavelengths\n",
+               100 * s.glare->spread, 100 * s.glare->lost, s.glare->wavelengths);
 }
 
 /// Tells what is right to ask for but often a mistake: nothing to see, a sun that has set.

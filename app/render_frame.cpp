@@ -169,9 +169,12 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
         frame.stats.lights.push_back(shadow.stats);
 
     const Stopwatch shade;
-    size_frame(crop_of(scene.render, options), options, frame);
+    const Region crop = crop_of(scene.render, options), whole{0, 0, scene.render.width, scene.render.height};
+    size_frame(scene.optics.enabled ? whole : crop, options, frame);
     render_tiles(tiles, options, exec, frame);
     frame.stats.tiles_s = shade.seconds();
+    if (frame.complete) add_frame_glare(scene, exec, cache.psf, frame);
+    crop_frame(crop, frame);
     frame.stats.total_s = total.seconds();
 }
 

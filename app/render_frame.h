@@ -6,6 +6,7 @@
 
 #include "app/file_access.h"
 #include "app/frame.h"
+#include "app/frame_glare.h"
 #include "app/frame_tile.h"
 #include "app/light_shadow.h"
 #include "core/isa.h"
@@ -26,13 +27,15 @@ struct FrameCache {
     std::vector<LightShadow> shadows;
     FileAccess access;                    ///< where shadow caches may lie
     std::optional<TreeFileKey> geometry;  ///< geometry_key() of the mesh, once a cache asks
+    std::optional<KeptPsf> psf;           ///< of the lens, once something glared
     RasterScratch camera_scratch, light_scratch;
     void forget() { *this = FrameCache{}; }
 };
 
 /// Renders scene.camera's picture, or the crop of it. Checks memory against scene.limits first (LimitError).
 /// `frame` may hold an earlier frame: its memory is used again. The same bits for any exec, and a crop's are
-/// those of the whole picture (shadows are made for the whole).
+/// those of the whole picture (shadows are made for the whole; with a lens so are the pixels, since light
+/// comes from anywhere).
 void render_frame(const Scene& scene, const FrameOptions& options, const Exec& exec, FrameCache& cache,
                   Frame& frame);
 

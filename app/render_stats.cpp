@@ -27,7 +27,9 @@ void put_seconds(JsonWriter& json, const FrameReport& frame) {
     json.key("seconds").begin_object();
     json.member("surface", s.surface_s).member("setup", s.setup_s).member("shadow", s.shadow_s);
     json.member("shadow_resolution", s.resolution_s).member("shadow_needed", s.needed_s);
-    json.member("tiles", s.tiles_s).member("render", s.total_s).member("write", frame.write_s);
+    json.member("tiles", s.tiles_s);
+    json.member("glare", s.glare ? s.glare->total_s : 0.0).member("psf", s.glare ? s.glare->psf_s : 0.0);
+    json.member("render", s.total_s).member("write", frame.write_s);
     json.end_object();
 }
 
@@ -37,6 +39,14 @@ void put_counts(JsonWriter& json, const FrameStats& s) {
     json.member("samples", s.samples).member("covered_samples", s.covered_samples);
     json.member("shadow_maps", s.shadow_maps).member("shadow_bytes", s.shadow_bytes);
     json.end_object();
+}
+
+void put_glare(JsonWriter& json, const GlareStats& s) {
+    json.key("glare").begin_object();
+    json.member("sources", s.sources).member("method", s.fft ? "fft" : "splats").member("reason", s.reason);
+    json.member("spread", s.spread).member("lost", s.lost).member("psf_kept", s.kept);
+    json.member("wavelengths", s.wavelengths).member("cycles_per_px", s.cycles_per_px);
+    json.member("captured", s.captured).end_object();
 }
 
 const char* method_name(ShadowMethod method) {
@@ -108,6 +118,7 @@ std::string stats_json(const RenderReport& report) {
         for (const LightShadowStats& light : frame.stats.lights)
             put_light(json, light);
         json.end_list();
+        if (frame.stats.glare) put_glare(json, *frame.stats.glare);
         json.key("files").begin_list();
         for (const WrittenFile& file : frame.files)
             put_file(json, file);

@@ -15,7 +15,7 @@ namespace obscura {
 /// allocating where sizes can be known before. Throws InputError, LimitError.
 Scene build_scene(const SceneDocument& document, const FileAccess& access);
 
-/// Sets camera and lights to `frame`; nothing else depends on it. Cheap.
+/// Sets camera, lens and lights to `frame`; nothing else depends on it. Cheap.
 void set_frame(Scene& scene, const SceneDocument& document, double frame);
 
 /// The parts of a document that need no files.
@@ -23,6 +23,8 @@ Camera camera_of(const SceneTable& camera);
 Light light_of(const SceneTable& light);
 Limits limits_of(const SceneDocument& document);
 RenderSettings render_settings_of(const SceneDocument& document);
+/// The lens at a frame, without the mask of a file; not enabled where the scene has no [optics].
+OpticsSettings optics_of(const SceneDocument& document, double frame);
 
 /// Bytes that rendering one frame holds at once: what `check` tells and rendering is held to. A bound but for
 /// three things, which follow the picture: lists of tiles with more than eight entries per triangle, layers

@@ -77,6 +77,44 @@ ShadowSettings shadow_of(const SceneTable& table) {
     return s;
 }
 
+/// Keys that only some shapes have.
+void set_shape(const SceneTable& table, OpticsSettings& o) {
+    const auto take = [&](const char* key, double& to) {
+        if (table.has(key)) to = number(table, key);
+    };
+    const auto count = [&](const char* key, int& to) {
+        if (table.has(key)) to = static_cast<int>(integer(table, key));
+    };
+    take("rotation_deg", o.rotation_deg);
+    take("bow", o.bow);
+    take("aspect", o.aspect);
+    take("obstruction", o.obstruction);
+    count("blades", o.blades);
+    count("vanes", o.vanes);
+    count("slits", o.slits);
+    count("lines", o.lines);
+    count("rings", o.rings);
+}
+
+/// The angle of view is the camera's; one more length makes it a lens and a sensor.
+void set_lens(const SceneTable& table, const SceneTable& camera, const RenderSettings& render,
+              OpticsSettings& o) {
+    if (camera.has("focal_length_mm")) {
+        o.focal_length_mm = number(camera, "focal_length_mm");
+        o.sensor_height_mm = number(camera, "sensor_height_mm");
+        return;
+    }
+    const double height_per_focal = 2 * num::tan(number(camera, "vfov_deg") * (num::pi / 360));
+    if (table.has("focal_length_mm")) {
+        o.focal_length_mm = number(table, "focal_length_mm");
+        o.sensor_height_mm = o.focal_length_mm * height_per_focal;
+        return;
+    }
+    if (table.has("sensor_width_mm"))
+        o.sensor_height_mm = number(table, "sensor_width_mm") * render.height / render.width;
+    o.focal_length_mm = o.sensor_height_mm / height_per_focal;
+}
+
 }  // namespace
 
 Camera camera_of(const SceneTable& table) {
@@ -149,8 +187,32 @@ RenderSettings render_settings_of(const SceneDocument& document) {
     return render;
 }
 
+OpticsSettings optics_of(const SceneDocument& document, double frame) {
+    OpticsSettings o;
+    if (!document.root.has("optics")) return o;
+    const SceneTable table = optics_at(document, frame), camera = camera_at(document, frame);
+    o.enabled = true;
+    o.aperture = text(table, "aperture");
+    set_shape(table, o);
+    o.f_number = number(table, "f_number");
+    o.clip = number(table, "clip");
+    o.mask_px = static_cast<int>(integer(table, "mask_px"));
+    o.light = text(table, "light");
+    o.temperature_kelvin = number(table, "temperature_kelvin");
+    const auto* count = std::get_if<std::int64_t>(&table.find("wavelengths")->value.data);
+    o.wavelengths = count != nullptr ? static_cast<int>(*count) : 0;
+    o.tolerance = number(table, "tolerance");
+    o.radius_px = static_cast<int>(integer(table, "radius_px"));
+    o.bloom_scale = static_cast<int>(integer(table, "bloom_scale"));
+    set_lens(table, camera, render_settings_of(document), o);
+    return o;
+}
+
 void set_frame(Scene& scene, const SceneDocument& document, double frame) {
     scene.camera = camera_of(camera_at(document, frame));
+    Image<float> mask = std::move(scene.optics.mask);
+    scene.optics = optics_of(document, frame);
+    scene.optics.mask = std::move(mask);
     scene.lights.clear();
     for (const SceneTable* light : subtables(document.root, "light")) {
         scene.lights.push_back(light_of(light_at(document, *light, frame)));

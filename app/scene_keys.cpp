@@ -295,9 +295,13 @@ const TableSpec& frames_table() {
     static const TableSpec light =
         keyframe_table("[[frames.light]]", "What a light is at a frame; keys as in [[light]].",
                        {frame_key(), name_key("id", "The light.").need()}, light_table());
+    static const TableSpec optics =
+        keyframe_table("[[frames.optics]]", "What the lens is at a frame; keys as in [optics].",
+                       {frame_key()}, optics_table());
     static const TableSpec spec{
         "[frames]",
-        "Which frames there are, and keyframes of camera and lights. Each key is interpolated by itself over "
+        "Which frames there are, and keyframes of camera, lights and optics. Each key is interpolated by "
+        "itself over "
         "the "
         "keyframes that set it and keeps its first and last value outside them. Angles are plain numbers: go "
         "from 350 "
@@ -312,6 +316,7 @@ const TableSpec& frames_table() {
                 .or_else("linear"),
             table_list_key("camera", camera),
             table_list_key("light", light),
+            table_list_key("optics", optics),
         },
         "",
         {}};
@@ -335,6 +340,7 @@ const TableSpec& scene_schema_root() {
             table_map_key("shadow", shadow_table()).beside({shadow_cache_key()}),
             table_key("sky", sky_table()),
             table_key("render", render_table()),
+            table_key("optics", optics_table()).only_if_given(),
             table_list_key("output", output_table()),
             table_key("frames", frames_table()),
             table_key("limits", limits_table()),

@@ -11,6 +11,7 @@ const TableSpec& mesh_table();
 const TableSpec& light_table();
 const TableSpec& shadow_table();
 KeySpec shadow_cache_key();  ///< also stands in [shadow] itself
+const TableSpec& optics_table();
 const TableSpec& frames_table();
 
 }  // namespace obscura

@@ -6,6 +6,7 @@
 
 #include "app/frame_tile.h"
 #include "app/keyframes.h"
+#include "app/lens.h"
 #include "app/needed_texels.h"
 #include "app/scene_build.h"
 #include "app/scene_shapes.h"
@@ -139,7 +140,7 @@ MemoryEstimate estimate_memory(const Scene& scene) {
     }
     for (const Light& light : scene.lights)
         e.shadow_maps += shadow_map_bytes(light);
-    e.frame = picture_bytes(scene.render) + work_bytes(scene);
+    e.frame = picture_bytes(scene.render) + work_bytes(scene) + glare_bytes(scene.optics, scene.render);
     return e;
 }
 
@@ -151,7 +152,8 @@ MemoryEstimate estimate_memory(const SceneDocument& document) {
     }
     for (const SceneTable* light : subtables(document.root, "light"))
         e.shadow_maps += shadow_map_bytes(light_of(*light));
-    e.frame = picture_bytes(render_settings_of(document));
+    const RenderSettings render = render_settings_of(document);
+    e.frame = picture_bytes(render) + glare_bytes(optics_of(document, scene_frames(document).first), render);
     return e;
 }
 

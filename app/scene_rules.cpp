@@ -8,6 +8,7 @@
 
 #include "app/keyframes.h"
 #include "app/scene_keys.h"
+#include "app/scene_rules_optics.h"
 #include "app/scene_rules_shadow.h"
 #include "app/scene_shapes.h"
 #include "app/scene_validate.h"
@@ -181,6 +182,22 @@ void check_keyframes(const std::vector<const SceneTable*>& keyframes, const Scen
     }
 }
 
+/// Keyframes of the lens, and the lens at every frame.
+void check_optics_frames(const SceneDocument& document, const FrameRange& range) {
+    const Sources& sources = document.sources;
+    const std::vector<const SceneTable*> keyframes = subtables(subtable(document.root, "frames"), "optics");
+    if (!document.root.has("optics")) {
+        if (!keyframes.empty())
+            fail_at(place_of(*keyframes.front(), "frame"), sources, "there is no [optics] to be animated");
+        return;
+    }
+    const SceneTable& optics = subtable(document.root, "optics");
+    check_keyframes(keyframes, optics, "[optics]", {}, sources);
+    const Size2 size = size2(subtable(document.root, "render"), "size_px");
+    for (int i = 0; i < range.count(); ++i)
+        check_lens(optics, camera_at(document, range.at(i)), size, sources);
+}
+
 void check_frames(const SceneDocument& document, const std::vector<std::string>& light_ids) {
     const Sources& sources = document.sources;
     const SceneTable& frames = subtable(document.root, "frames");
@@ -208,6 +225,7 @@ void check_frames(const SceneDocument& document, const std::vector<std::string>&
             check_light(light_at(document, *light, range->at(i)), sources);
         }
     }
+    check_optics_frames(document, *range);
     const bool camera_moves = !subtables(frames, "camera").empty();
     for (int i = 0; i < (camera_moves ? range->count() : 1); ++i) {
         check_camera(camera_at(document, range->at(i)), sources);
@@ -230,6 +248,7 @@ void apply_rules(SceneDocument& document) {
     const Sources& sources = document.sources;
     complete_lens(std::get<SceneTable>(root.find("camera")->value.data), sources);
     check_size(document);
+    check_optics(root, sources);
 
     unique_ids(root, "mesh", sources);
     const std::vector<std::string> materials =

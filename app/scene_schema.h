@@ -47,6 +47,7 @@ struct KeySpec {
     bool required = false;
     bool animated = false;  ///< frames can set it
     bool folder = false;    ///< files: the text names a folder
+    bool absent = false;    ///< tables: stay away unless given
     Range range;
     std::vector<std::string> choices;
     std::vector<std::int64_t> allowed;  ///< integers: exactly these, when not empty
@@ -59,6 +60,7 @@ struct KeySpec {
     KeySpec&& need() && { return required = true, std::move(*this); }
     KeySpec&& animate() && { return animated = true, std::move(*this); }
     KeySpec&& as_folder() && { return folder = true, std::move(*this); }
+    KeySpec&& only_if_given() && { return absent = true, std::move(*this); }
     KeySpec&& in(Range r) && { return range = r, std::move(*this); }
     KeySpec&& one_of(std::vector<std::int64_t> values) && {
         return allowed = std::move(values), std::move(*this);

@@ -342,7 +342,7 @@ SceneTable validate_table(const SceneTable& raw, const Place& place, const Table
             result.set(key->name, *key->fallback);
         } else if (key->type == KeyType::name_map) {
             result.set(key->name, {SceneTable{}, {}});
-        } else if (key->type == KeyType::table) {
+        } else if (key->type == KeyType::table && !key->absent) {
             result.set(key->name, {validate_table({}, {}, *key->table, sources), {}});
         }
     }

@@ -109,6 +109,40 @@ struct RenderSettings {
     Receivers receivers = Receivers::static_only;
 };
 
+/// How the aperture that light samples see is found: `open`: the lens's own, for all; `exact`: less what the
+/// scene hides of it from the light; `neighbours`: less the pixels around the source that do not glare.
+enum class PupilVisibility { open, exact, neighbours };
+
+/// The camera's lens as far as it diffracts. A pinhole's picture is taken; what this adds is glare.
+struct OpticsSettings {
+    bool enabled = false;
+    std::string aperture = "iris";  ///< name of a shape, or "file"
+    Image<float> mask;              ///< of aperture "file", else empty
+    int mask_px = 512;              ///< side of a shape's mask
+    int blades = 7;                 ///< iris, whirl
+    double rotation_deg = 0;        ///< clockwise as light sees it on its way in
+    double bow = 0;                 ///< iris: 0 straight blades, 1 a circle
+    double aspect = 1;              ///< box: height / width
+    double obstruction = 0.3;       ///< annulus: of the diameter
+    int vanes = 4;                  ///< annulus
+    int slits = 1, lines = 16, rings = 2;
+    // The lens. The camera's angle of view decides the size of the sensor.
+    double focal_length_mm = 50, f_number = 8, sensor_height_mm = 24;
+    double clip = 1;  ///< exposed radiance above which a pixel glares
+    // Light: how its wavelengths are spread; colours stay the scene's.
+    std::string light = "d65";
+    double temperature_kelvin = 6500;
+    int wavelengths = 0;      ///< 0: chosen from radius and tolerance
+    double tolerance = 0.01;  ///< of colours
+    int radius_px = 256;      ///< of the kernel
+    int bloom_scale = 1;
+    PupilVisibility visibility = PupilVisibility::open;
+    int visibility_samples = 16;  ///< per lamp, most
+    double focus_m = 0;           ///< bright points out of focus show their near field; 0: all is sharp
+    int focus_steps = 8;          ///< depths that have kernels of their own, most
+    friend bool operator==(const OpticsSettings&, const OpticsSettings&) = default;
+};
+
 enum class Aov { beauty, depth, normal, albedo, object, shadow };
 
 struct Output {
@@ -135,6 +169,7 @@ struct Scene {
     std::vector<Light> lights;
     Sky sky;
     RenderSettings render;
+    OpticsSettings optics;
     std::vector<Output> outputs;
     Limits limits;
 };

@@ -41,7 +41,8 @@ TEST(Cli, VersionNamesCompilerInstructionSetsAndLibraries) {
 
 TEST(Cli, EveryCommandHasHelpWithUsage) {
     const auto commands = listed_commands();
-    for (const char* expected : {"render", "check", "dump", "info", "diff", "bench", "lesson", "version"})
+    for (const char* expected :
+         {"render", "check", "dump", "info", "diff", "diffraction", "bench", "lesson", "version"})
         EXPECT_NE(std::find(commands.begin(), commands.end(), expected), commands.end()) << expected;
     for (const std::string& command : commands) {
         const Outcome run = Program({command, "--help"}).run();
@@ -73,6 +74,17 @@ std::string plausible_value(const std::string& kind) {
                                                                      {"LIST", "1"},
                                                                      {"TEXT", "a"},
                                                                      {"NAME", "accuracy"},
+                                                                     {"MM", "4"},
+                                                                     {"UM", "5"},
+                                                                     {"NM", "500"},
+                                                                     {"DEG", "10"},
+                                                                     {"SHARE", "0.5"},
+                                                                     {"RATIO", "2"},
+                                                                     {"LIGHT", "d65"},
+                                                                     {"X", "2"},
+                                                                     {"U,V", "1,2"},
+                                                                     {"METHOD", "runs"},
+                                                                     {"DECADES", "5"},
                                                                      {"N", "1"}};
     for (const auto& [name, value] : values) {
         if (name == kind) return value;

@@ -93,6 +93,9 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
     h.value(s.render.tone).value(s.render.receivers);
     for (const Output& o : s.outputs)
         words(o.file + std::to_string(static_cast<int>(o.aov)));
+    h.value(s.optics.enabled).value(s.optics.mask_px).value(s.optics.wavelengths).value(s.optics.tolerance);
+    h.value(s.optics.radius_px).value(s.optics.bloom_scale).values(s.optics.mask.pixels);
+    words(s.optics.aperture + "/" + s.optics.light);
     h.value(s.limits.memory_mib)
         .value(s.limits.triangles)
         .value(s.limits.texture_px)
@@ -110,6 +113,10 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
             .value(c.vfov_deg)
             .value(c.height_m)
             .value(c.near_m);
+        const OpticsSettings& o = s.optics;
+        h.value(o.rotation_deg).value(o.bow).value(o.aspect).value(o.obstruction).value(o.clip);
+        h.value(o.blades).value(o.vanes).value(o.slits).value(o.lines).value(o.rings);
+        h.value(o.focal_length_mm).value(o.f_number).value(o.sensor_height_mm).value(o.temperature_kelvin);
         for (const Light& l : s.lights) {
             words(l.id);
             h.value(l.kind).value(l.direction).value(l.position).value(l.color).value(l.inner_cone_deg);
@@ -166,7 +173,7 @@ std::vector<std::string> candidates(const KeySpec& key) {
         case KeyType::vec3_or_number:
             return {"[0.25, 0.5, 0.75]"};
         default:
-            for (const double v : {0.3, 0.07, 0.02, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0})
+            for (const double v : {0.3, 0.07, 0.02, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0, 3000.0})
                 add(v);
             return values;
     }
@@ -300,6 +307,28 @@ TEST_F(SceneKeys, OfFramesAreRead) {
                         "[[frames.light]]\nframe = 4\nid = \"l\"\n" + other.at(type));
     }
     expect_all_matter(bases, "frames.light.0.", list("light"));
+}
+
+TEST_F(SceneKeys, OfOpticsAreRead) {
+    const std::string base = start + camera;
+    std::vector<std::string> bases, animated;
+    for (const VariantSpec& variant : optics_table().variants) {
+        const std::string own =
+            base + "[optics]\naperture = \"" + variant.name + "\"\nlight = \"blackbody\"\n";
+        expect_all_matter({own}, "optics.", optics_table().keys, {"aperture"});
+        expect_all_matter({own}, "optics.", variant.keys);
+        animated.push_back(own + keyframes + "[[frames.optics]]\nframe = 1\nclip = 2\n" +
+                           "[[frames.optics]]\nframe = 4\nclip = 3\n");
+        bases.push_back(own);
+    }
+    for (std::size_t i = 1; i < bases.size(); ++i)
+        EXPECT_NE(fingerprint(read_scene_text(bases[0], "a"), access_),
+                  fingerprint(read_scene_text(bases[i], "a"), access_));
+    EXPECT_NE(fingerprint(read_scene_text(base, "a"), access_),
+              fingerprint(read_scene_text(bases[0], "a"), access_));
+    for (const KeySpec& key : frames_table().keys) {
+        if (key.name == "optics") expect_all_matter(animated, "frames.optics.0.", key.table->keys);
+    }
 }
 
 TEST_F(SceneKeys, OfEverythingElseAreRead) {

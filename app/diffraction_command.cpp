@@ -1,0 +1,278 @@
+#include "app/diffraction_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/json_writer.h"
+#include "app/stopwatch.h"
+#include "core/error.h"
+#include "core/image_io.h"
+#include "core/num.h"
+#include "core/parallel.h"
+#include "optics/psf.h"
+
+namespace obscura {
+namespace {
+
+constexpr double reference_nm = 550;
+constexpr double default_diameter_m = 0.005;
+constexpr int near_wavelengths = 40;
+
+/// What is computed, over which grid, and how.
+struct Job {
+    Aperture aperture;
+    double open = 0;  ///< texels
+    FrequencyGrid far_grid;
+    PlaneGrid plane;
+    NearFieldParams near;
+    FarFieldReport far_plan;
+    NearFieldReport near_plan;
+};
+
+/// Bytes that a pattern holds at most: numbers, the largest of its intermediate pictures, codes of the files.
+/// The methods' own tables are small beside them.
+std::int64_t pattern_bytes(const DiffractionOptions& options) {
+    const std::int64_t pixels = std::int64_t{options.size_px} * options.size_px;
+    const std::int64_t side = options.mask_px;
+    const std::int64_t amplitudes = options.amplitude || options.near_m ? 2 * 4 : 0;
+    const std::int64_t numbers = (options.spectrum ? 4 + 12 + 24 : 2 * 4) + amplitudes;
+    return pixels * (numbers + 3 * 3 + 12) + side * side * 4 * 6;
+}
+
+void check_limits(const DiffractionOptions& options) {
+    const std::int64_t bytes = pattern_bytes(options);
+    if (bytes <= options.memory_mib << 20) return;
+    throw LimitError(
+        fmt::format("a pattern of {0} x {0} pixels needs about {1:.0f} MiB, more than "
+                    "--limit-memory {2}",
+                    options.size_px, static_cast<double>(bytes) / (1 << 20), options.memory_mib));
+}
+
+Aperture load_aperture(const DiffractionOptions& options) {
+    Aperture aperture =
+        make_aperture(options.shape, options.mask_px, options.diameter_m.value_or(default_diameter_m));
+    if (options.pitch_m) aperture.pitch_m = *options.pitch_m;
+    if (options.finest_level > 0) aperture = reduce(aperture, options.finest_level, true);
+    return aperture;
+}
+
+FrequencyGrid far_grid(const DiffractionOptions& options, const Aperture& aperture) {
+    const double step = 1 / (options.zoom * options.size_px);
+    const double width = aperture.mask.width;
+    return centred_grid(options.size_px, options.size_px, step, options.centre.x / width,
+                        options.centre.y / width);
+}
+
+PlaneGrid near_grid(const DiffractionOptions& options, const Aperture& aperture) {
+    const double width = aperture.mask.width;
+    PlaneGrid plane = centred_plane(options.size_px, width / options.zoom);
+    plane.first_x += options.centre.x * width;
+    plane.first_y += options.centre.y * width;
+    return plane;
+}
+
+Job plan_job(const DiffractionOptions& options) {
+    Job job;
+    job.aperture = load_aperture(options);
+    job.open = open_area(job.aperture.mask.view());
+    if (options.near_m) {
+        job.plane = near_grid(options, job.aperture);
+        job.near.wavelength_m = 1e-9 * (options.spectrum ? reference_nm : options.wavelength_nm);
+        job.near.distance_m = *options.near_m;
+        job.near.method = options.near_method;
+        job.near.cull = options.far.cull;
+        job.near_plan = plan_near_field(job.aperture, job.plane, job.near);
+    } else {
+        job.far_grid = far_grid(options, job.aperture);
+        job.far_plan = plan_far_field(job.aperture, job.far_grid, options.far);
+    }
+    return job;
+}
+
+std::string aperture_text(const DiffractionOptions& options, const Job& job) {
+    const Image<float>& mask = job.aperture.mask;
+    return fmt::format("aperture  {}: {} x {} texels of {:.4g} um ({:.4g} mm wide), {:.1f} % open\n",
+                       options.aperture, mask.width, mask.height, job.aperture.pitch_m * 1e6,
+                       job.aperture.pitch_m * 1e3 * mask.width,
+                       100 * job.open / (static_cast<double>(mask.width) * mask.height));
+}
+
+std::string pattern_text(const DiffractionOptions& options, const Job& job) {
+    const double nm = options.spectrum ? reference_nm : options.wavelength_nm;
+    std::string out;
+    if (options.near_m) {
+        out = fmt::format(
+            "pattern   near field at {:.6g} mm, Fresnel number {:.4g} at {:.4g} nm; {} x {} pixels "
+            "of {:.4g} um\n",
+            *options.near_m * 1e3, fresnel_number(job.aperture, job.near), nm, options.size_px,
+            options.size_px, job.plane.step * job.aperture.pitch_m * 1e6);
+    } else {
+        const double radians = job.far_grid.step_u * nm * 1e-9 / job.aperture.pitch_m;
+        out = fmt::format(
+            "pattern   far field, {} x {} pixels of {:.4g} cycles per width of the mask, that is "
+            "{:.4g} arc seconds at {:.4g} nm\n",
+            options.size_px, options.size_px, job.far_grid.step_u * job.aperture.mask.width,
+            radians * (180 / num::pi) * 3600, nm);
+    }
+    const std::string method = options.near_m ? near_field_method_name(job.near_plan.method)
+                                              : far_field_method_name(job.far_plan.method);
+    const std::string& reason = options.near_m ? job.near_plan.reason : job.far_plan.reason;
+    return out + fmt::format("method    {}\n", reason.empty() ? method : reason);
+}
+
+/// Power of one wavelength, relative to the open wave's (near) or the whole opening's (far).
+void scale_to(Image<float>& image, double factor) {
+    const auto f = static_cast<float>(factor);
+    for (float& v : image.pixels)
+        v *= f;
+}
+
+Image<float> power_of(const Field& field) {
+    Image<float> power(field.re.width, field.re.height);
+    for (std::size_t i = 0; i < power.pixels.size(); ++i)
+        power.pixels[i] = field.re.pixels[i] * field.re.pixels[i] + field.im.pixels[i] * field.im.pixels[i];
+    return power;
+}
+
+Pattern far_pattern(const DiffractionOptions& options, Job& job) {
+    Pattern pattern;
+    const double unit = 1 / job.open;
+    if (options.amplitude) {
+        pattern.amplitude = far_field(job.aperture, job.far_grid, options.far, options.exec, &job.far_plan);
+        scale_to(pattern.amplitude.re, unit);
+        scale_to(pattern.amplitude.im, unit);
+        pattern.power = power_of(pattern.amplitude);
+    } else if (!options.spectrum) {
+        pattern.power = far_field_power(job.aperture, job.far_grid, options.far, options.exec, &job.far_plan);
+        scale_to(pattern.power, unit * unit);
+    }
+    if (options.spectrum) {
+        PsfParams params;
+        params.light = *options.spectrum;
+        params.wavelengths = options.wavelengths;
+        pattern.colour = far_field_colour(job.aperture, job.far_grid, reference_nm, params, options.exec);
+    }
+    return pattern;
+}
+
+/// Every wavelength of the light has its own near field; their colours add up.
+Image<Vec3f> near_colour(const DiffractionOptions& options, Job& job) {
+    const int count = options.wavelengths > 0 ? options.wavelengths : near_wavelengths;
+    Image<Vec3d> sum(options.size_px, options.size_px);
+    for (const SpectralSample& sample : spectral_samples(*options.spectrum, count)) {
+        NearFieldParams params = job.near;
+        params.wavelength_m = 1e-9 * sample.wavelength_nm;
+        const Image<float> light =
+            near_field_intensity(job.aperture, job.plane, params, options.exec, &job.near_plan);
+        for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+            sum.pixels[i] = sum.pixels[i] + sample.rgb * static_cast<double>(light.pixels[i]);
+    }
+    Image<Vec3f> colour(options.size_px, options.size_px);
+    std::transform(sum.pixels.begin(), sum.pixels.end(), colour.pixels.begin(),
+                   [](Vec3d c) { return to_float(into_gamut(c)); });
+    return colour;
+}
+
+Pattern near_pattern(const DiffractionOptions& options, Job& job) {
+    Pattern pattern;
+    if (options.amplitude) {
+        pattern.amplitude = near_field(job.aperture, job.plane, job.near, options.exec, &job.near_plan);
+        pattern.power = power_of(pattern.amplitude);
+    } else if (!options.spectrum) {
+        pattern.power = near_field_intensity(job.aperture, job.plane, job.near, options.exec, &job.near_plan);
+    }
+    if (options.spectrum) pattern.colour = near_colour(options, job);
+    return pattern;
+}
+
+/// "a/b.png" and "re": "a/b.re.pfm".
+std::filesystem::path part_path(const std::string& file, const char* part) {
+    const std::filesystem::path p(file);
+    return p.parent_path() / fmt::format("{}.{}.pfm", p.stem().string(), part);
+}
+
+void check_files(const DiffractionOptions& options) {
+    for (const std::string& file : options.outputs) {
+        file_kind(file);
+        check_writable(file, options.existing);
+    }
+    if (options.amplitude) {
+        for (const char* part : {"re", "im"})
+            check_writable(part_path(options.outputs.front(), part), options.existing);
+    }
+    if (!options.stats_json.empty()) check_writable(options.stats_json, options.existing);
+}
+
+void write_pattern(const DiffractionOptions& options, const Pattern& pattern) {
+    const bool grey = pattern.colour.pixels.empty();
+    for (const std::string& file : options.outputs) {
+        std::string bytes;
+        if (file_kind(file) == FileKind::png) {
+            const Image<Rgb8> picture = grey ? view_power(pattern.power.view(), options.view, options.exec)
+                                             : view_colour(pattern.colour.view(), options.view, options.exec);
+            bytes = encode_png(picture.view());
+        } else {
+            bytes = grey ? encode_pfm(pattern.power.view()) : encode_pfm(pattern.colour.view());
+        }
+        write_file_atomically(file, bytes, options.existing);
+        fmt::print("{}\n", file);
+    }
+    if (!options.amplitude) return;
+    const Field& field = pattern.amplitude;
+    for (const auto& [part, image] : {std::pair{"re", &field.re}, std::pair{"im", &field.im}}) {
+        const std::filesystem::path file = part_path(options.outputs.front(), part);
+        write_file_atomically(file, encode_pfm(image->view()), options.existing);
+        fmt::print("{}\n", file.string());
+    }
+}
+
+std::string stats_text(const DiffractionOptions& options, const Job& job, double seconds) {
+    JsonWriter json;
+    json.begin_object().member("schema", 1).member("aperture", options.aperture);
+    json.member("mask_width", job.aperture.mask.width).member("mask_height", job.aperture.mask.height);
+    json.member("pitch_m", job.aperture.pitch_m).member("open_texels", job.open);
+    json.member("size_px", options.size_px).member("isa", isa_name(options.exec.isa));
+    json.member("threads", options.exec.threads > 0 ? options.exec.threads : hardware_threads());
+    const bool near = options.near_m.has_value();
+    json.member("field", near ? "near" : "far");
+    json.member("method", near ? near_field_method_name(job.near_plan.method)
+                               : far_field_method_name(job.far_plan.method));
+    json.member("reason", near ? job.near_plan.reason : job.far_plan.reason);
+    json.member("planned_ms", near ? job.near_plan.cost_ms : job.far_plan.cost_ms);
+    json.member("quads", near ? job.near_plan.quads : job.far_plan.quads);
+    json.member("edges", near ? job.near_plan.edges : job.far_plan.edges);
+    if (near) {
+        json.member("fresnel_number", fresnel_number(job.aperture, job.near));
+    } else {
+        json.member("active_blocks", job.far_plan.active_blocks).member("blocks", job.far_plan.blocks);
+    }
+    json.member("seconds", seconds);
+    return json.end_object().finish();
+}
+
+}  // namespace
+
+int diffraction_command(const DiffractionOptions& options) {
+    if (options.amplitude && options.spectrum)
+        throw UsageError("--amplitude is of one wavelength: give --wavelength-nm, not --spectrum");
+    if (!options.plan_only) check_files(options);
+    check_limits(options);
+    Job job = plan_job(options);
+    if (!(job.open > 0))
+        throw InputError(options.aperture, "the aperture is closed: no texel lets light through");
+    fmt::print("{}{}", aperture_text(options, job), pattern_text(options, job));
+    std::fflush(stdout);
+    if (options.plan_only) return 0;
+    const Stopwatch watch;
+    const Pattern pattern = options.near_m ? near_pattern(options, job) : far_pattern(options, job);
+    const double seconds = watch.seconds();
+    write_pattern(options, pattern);
+    if (!options.stats_json.empty())
+        write_file_atomically(options.stats_json, stats_text(options, job, seconds), options.existing);
+    return 0;
+}
+
+}  // namespace obscura

@@ -1,0 +1,135 @@
+// Keys of the lens as far as it diffracts.
+
+#include "app/scene_keys.h"
+#include "core/scene.h"
+
+namespace obscura {
+namespace {
+
+KeySpec rotation_key() {
+    return number_key("rotation_deg", "Turns the shape, clockwise as it is seen from the scene.")
+        .in({-36000, 36000})
+        .or_else(OpticsSettings{}.rotation_deg)
+        .animate();
+}
+
+KeySpec blades_key() {
+    return integer_key("blades", "How many.").in({3, 64}).or_else(std::int64_t{OpticsSettings{}.blades});
+}
+
+std::vector<VariantSpec> aperture_variants() {
+    static const OpticsSettings d;
+    const auto count = [](const char* name, const char* doc, int low, int high, int fallback) {
+        return integer_key(name, doc)
+            .in({static_cast<double>(low), static_cast<double>(high)})
+            .or_else(std::int64_t{fallback});
+    };
+    return {
+        {"iris",
+         "Straight or bowed blades around an opening.",
+         {blades_key(),
+          number_key("bow", "0: straight edges, 1: a circle.").in({0, 1}).or_else(d.bow).animate(),
+          rotation_key()}},
+        {"circle", "Fully open.", {}},
+        {"box",
+         "A rectangle.",
+         {number_key("aspect", "Height / width.").in({1.0 / 64, 64}).or_else(d.aspect).animate(),
+          rotation_key()}},
+        {"whirl", "Curved openings around a hub.", {blades_key(), rotation_key()}},
+        {"annulus",
+         "A telescope: a circle less a central mirror and the vanes that hold it.",
+         {number_key("obstruction", "Diameter of the mirror, share of the whole.")
+              .in({0, 1, false, true})
+              .or_else(d.obstruction)
+              .animate(),
+          count("vanes", "How many.", 0, 64, d.vanes), rotation_key()}},
+        {"slit", "Parallel slits.", {count("slits", "How many.", 1, 1024, d.slits), rotation_key()}},
+        {"grating", "Lines side by side.", {count("lines", "How many.", 1, 4096, d.lines), rotation_key()}},
+        {"hexagons",
+         "A segmented mirror.",
+         {count("rings", "Rings of segments around the missing one in the middle.", 1, 32, d.rings),
+          rotation_key()}},
+    };
+}
+
+std::vector<KeySpec> lens_keys() {
+    static const OpticsSettings d;
+    return {
+        number_key("f_number", "Focal length / diameter of the aperture.")
+            .in({0.1, 1000})
+            .or_else(d.f_number)
+            .animate(),
+        number_key(
+            "focal_length_mm",
+            "Of the lens, for cameras that give vfov_deg; together with the angle of view it decides "
+            "the size of the sensor, and so what a pixel is. Cameras that give a focal length have said it.")
+            .in({0, 1e6, true}),
+        number_key(
+            "sensor_width_mm",
+            "Instead of that; a sensor 24 mm high when neither is given. Both must fit the angle of view.")
+            .in({0, 1e6, true}),
+        number_key("clip",
+                   "Radiance, after exposure, of the brightest that the sensor shows: pixels above it "
+                   "(their largest channel) glare.")
+            .in({0, 1e9, true})
+            .or_else(d.clip)
+            .animate(),
+        integer_key("mask_px", "Texels a side of a shape's mask.")
+            .one_of({64, 128, 256, 512, 1024, 2048, 4096})
+            .or_else(std::int64_t{d.mask_px}),
+    };
+}
+
+std::vector<KeySpec> glare_keys() {
+    static const OpticsSettings d;
+    return {
+        choice_key("light", {"d65", "equal", "blackbody", "sodium", "rgb_led"},
+                   "Whose wavelengths the pattern is made of. Sources keep their own colours; this says how "
+                   "each channel spreads.")
+            .or_else("d65"),
+        number_key("temperature_kelvin", "Of light = \"blackbody\".")
+            .in({500, 1e6})
+            .or_else(d.temperature_kelvin)
+            .animate(),
+        integer_key("wavelengths", "How many; \"auto\": as many as radius and tolerance need.")
+            .in({1, 4096})
+            .or_word("auto")
+            .or_else("auto"),
+        number_key("tolerance", "Error of the pattern's colours that \"auto\" aims at.")
+            .in({1e-6, 1})
+            .or_else(d.tolerance),
+        integer_key("radius_px", "How far light spreads; what would fall farther is counted in by scaling.")
+            .in({1, 4096})
+            .or_else(std::int64_t{d.radius_px}),
+        integer_key("bloom_scale",
+                    "More than 1: what lies farther than twice this many pixels from its source is computed "
+                    "at this fraction of the resolution.")
+            .one_of({1, 2, 4, 8})
+            .or_else(std::int64_t{d.bloom_scale}),
+    };
+}
+
+}  // namespace
+
+const TableSpec& optics_table() {
+    static const TableSpec spec = [] {
+        TableSpec s{"[optics]",
+                    "The lens as far as it diffracts: pixels brighter than the sensor can show spread by the "
+                    "pattern of its aperture, in its true size. There is no glare without this table.",
+                    {},
+                    "aperture",
+                    aperture_variants()};
+        std::vector<std::string> names;
+        for (const VariantSpec& variant : s.variants)
+            names.push_back(variant.name);
+        s.keys.push_back(choice_key("aperture", names, "The opening's shape.").or_else("iris"));
+        for (KeySpec& key : lens_keys())
+            s.keys.push_back(std::move(key));
+        for (KeySpec& key : glare_keys())
+            s.keys.push_back(std::move(key));
+        return s;
+    }();
+    return spec;
+}
+
+}  // namespace obscura
