@@ -21,13 +21,41 @@ std::optional<NaturalAxis> natural_axis(int extent, double first, double step, i
     return {};
 }
 
-/// cos and sin of 2 pi t, t reduced to a half turn first.
-struct Turn {
-    double cos, sin;
+/// cos and sin of 2 pi k / length, k = 0 to length - 1, length a power of two: one eighth is computed, the
+/// rest are its mirror images, so that opposite roots are exactly opposite.
+struct DoubleRoots {
+    std::vector<double> cos, sin;
+    explicit DoubleRoots(int length);
+    std::size_t index(std::int64_t k) const {
+        return static_cast<std::size_t>(k & (static_cast<std::int64_t>(cos.size()) - 1));
+    }
 };
-Turn turn(double t) {
-    const double angle = 2 * num::pi * (t - std::floor(t + 0.5));
-    return {num::cos(angle), num::sin(angle)};
+
+DoubleRoots::DoubleRoots(int length) : cos(static_cast<std::size_t>(length)), sin(cos.size()) {
+    const auto eighth_of = [&](int k, double& c, double& s) {
+        const double angle = 2 * num::pi * k / length;
+        c = num::cos(angle);
+        s = num::sin(angle);
+    };
+    // To the quarter turn: cos(k) = sin(quarter - k).
+    const int quarter = length / 4;
+    for (int k = 0; k <= quarter / 2; ++k) {
+        double c = 0, s = 0;
+        eighth_of(k, c, s);
+        const auto near = static_cast<std::size_t>(k), far = static_cast<std::size_t>(quarter - k);
+        cos[near] = c;
+        sin[near] = s;
+        if (length < 4) break;
+        cos[far] = s;
+        sin[far] = c;
+    }
+    if (length == 2) cos[1] = -1;
+    // Quarter by quarter: cos(k + quarter) = -sin(k), sin(k + quarter) = cos(k).
+    for (int k = quarter + 1; length >= 4 && k < length; ++k) {
+        const auto at = static_cast<std::size_t>(k), from = static_cast<std::size_t>(k - quarter);
+        cos[at] = 0 - sin[from];
+        sin[at] = cos[from];
+    }
 }
 
 double frequency(const NaturalAxis& axis, int k) {
@@ -43,44 +71,47 @@ std::optional<NaturalGrid> natural_grid(int mask_width, int mask_height, const F
     return NaturalGrid{*u, *v};
 }
 
-void AxisFactors::push_back(double re_, double im_) {
-    re.push_back(static_cast<float>(re_));
-    im.push_back(static_cast<float>(im_));
-    power.push_back(static_cast<float>(re_ * re_ + im_ * im_));
+AxisFactors::AxisFactors(int count) : re(static_cast<std::size_t>(count)), im(re.size()), power(re.size()) {}
+
+void AxisFactors::set(int k, double re_, double im_) {
+    const auto at = static_cast<std::size_t>(k);
+    re[at] = static_cast<float>(re_);
+    im[at] = static_cast<float>(im_);
+    power[at] = static_cast<float>(re_ * re_ + im_ * im_);
 }
 
 AxisFactors texel_factors(const NaturalAxis& axis, int extent) {
-    AxisFactors factors;
+    // Phases u (extent - 1) / 2 and u / 2 are whole multiples of 1 / (2 period).
+    const DoubleRoots roots(2 * axis.period());
+    AxisFactors factors(axis.count);
     for (int k = 0; k < axis.count; ++k) {
-        const double u = frequency(axis, k);
-        const Turn shift = turn(u * (extent - 1) / 2);
-        const double sinc = u == 0 ? 1 : turn(u / 2).sin / (num::pi * u);
-        factors.push_back(sinc * shift.cos, sinc * shift.sin);
+        const std::int64_t index = axis.first + k;
+        const std::size_t shift = roots.index(index * (extent - 1));
+        const double sinc = index == 0 ? 1 : roots.sin[roots.index(index)] / (num::pi * frequency(axis, k));
+        factors.set(k, sinc * roots.cos[shift], sinc * roots.sin[shift]);
     }
     return factors;
 }
 
 AxisFactors edge_factors(const NaturalAxis& axis, int extent) {
-    AxisFactors factors;
+    const DoubleRoots roots(2 * axis.period());
+    AxisFactors factors(axis.count);
     for (int k = 0; k < axis.count; ++k) {
-        const double u = frequency(axis, k);
-        const Turn shift = turn(u * extent / 2);
+        const std::int64_t index = axis.first + k;
+        const std::size_t shift = roots.index(index * extent);
         // 1 / i = -i
-        const double size = u == 0 ? 0 : 1 / (2 * num::pi * u);
-        factors.push_back(size * shift.sin, -size * shift.cos);
+        const double size = index == 0 ? 0 : 1 / (2 * num::pi * frequency(axis, k));
+        factors.set(k, size * roots.sin[shift], -size * roots.cos[shift]);
     }
     return factors;
 }
 
 UnitRoots unit_roots(int log2_length) {
-    const int length = 1 << log2_length;
-    UnitRoots roots;
-    roots.re.reserve(static_cast<std::size_t>(length));
-    roots.im.reserve(static_cast<std::size_t>(length));
-    for (int k = 0; k < length; ++k) {
-        const Turn t = turn(static_cast<double>(k) / length);
-        roots.re.push_back(static_cast<float>(t.cos));
-        roots.im.push_back(static_cast<float>(-t.sin));
+    const DoubleRoots exact(1 << log2_length);
+    UnitRoots roots{std::vector<float>(exact.cos.size()), std::vector<float>(exact.cos.size())};
+    for (std::size_t k = 0; k < exact.cos.size(); ++k) {
+        roots.re[k] = static_cast<float>(exact.cos[k]);
+        roots.im[k] = static_cast<float>(-exact.sin[k]);
     }
     return roots;
 }

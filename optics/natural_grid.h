@@ -30,7 +30,9 @@ std::optional<NaturalGrid> natural_grid(int mask_width, int mask_height, const F
 /// Complex factors of the samples of an axis, and their squared magnitudes.
 struct AxisFactors {
     std::vector<float> re, im, power;
-    void push_back(double re_, double im_);
+    AxisFactors() = default;
+    explicit AxisFactors(int count);
+    void set(int k, double re_, double im_);
 };
 
 /// What turns sum over texels x of f(x) e^(-2 pi i u x) into the transform of the mask about its centre: the

@@ -5,11 +5,14 @@ namespace {
 
 void fill_steps(const UnitRoots& roots, int first, int last, std::vector<float>& re, std::vector<float>& im) {
     const std::int64_t wrap = static_cast<std::int64_t>(roots.re.size()) - 1;
-    for (int x = first; x <= last; ++x) {
-        for (int lane = 0; lane < 16; ++lane) {
-            const auto at = static_cast<std::size_t>((std::int64_t{x} * lane) & wrap);
-            re.push_back(roots.re[at]);
-            im.push_back(roots.im[at]);
+    re.resize(16 * static_cast<std::size_t>(last - first + 1));
+    im.resize(re.size());
+    std::size_t to = 0;
+    for (std::int64_t x = first; x <= last; ++x) {
+        for (std::int64_t lane = 0; lane < 16; ++lane, ++to) {
+            const auto at = static_cast<std::size_t>((x * lane) & wrap);
+            re[to] = roots.re[at];
+            im[to] = roots.im[at];
         }
     }
 }

@@ -9,16 +9,12 @@
 namespace obscura {
 namespace {
 
-std::int64_t modulo(std::int64_t a, std::int64_t period) {
-    return ((a % period) + period) % period;
-}
-
 /// Calls place(column) for the columns of the grid that are congruent to j, ascending, those that begin up to
 /// 15 before the grid included.
 template <class Place>
 void for_congruent(const NaturalAxis& u, std::int64_t j, Place&& place) {
     const std::int64_t period = u.period();
-    for (std::int64_t c = modulo(j - u.first + 15, period) - 15; c < u.count; c += period)
+    for (std::int64_t c = ((j - u.first + 15) & (period - 1)) - 15; c < u.count; c += period)
         place(static_cast<int>(c));
 }
 
@@ -110,25 +106,25 @@ GroupStrips mirror_strips(const NaturalAxis& u, int group) {
 
 void store_real_pair(const float* re, const float* im, const SpectrumRows& rows, const NaturalAxis& u,
                      const AxisFactors& factors, const FieldTarget& target) {
-    const std::int64_t period = u.period();
-    const std::int64_t row_period = std::int64_t{1} << rows.log2_period;
+    const int period = u.period(), row_period = 1 << rows.log2_period;
     for (int c = 0; c < u.count; ++c) {
-        const std::int64_t j = modulo(u.first + c, period);
-        if (j != 0 && (period == 1 || j != period / 2)) continue;
+        const std::int64_t j = (u.first + c) & (period - 1);
+        const bool first_of_pair = j == 0;
+        if (!first_of_pair && 2 * j != period) continue;
         const auto column = static_cast<std::size_t>(c);
+        const float factor_re = factors.re[column], factor_im = factors.im[column];
+        const float factor_power = factors.power[column];
         for (int r = 0; r < rows.count; ++r) {
-            const std::int64_t k = modulo(rows.first + r, row_period);
+            const std::int64_t k = (rows.first + r) & (row_period - 1);
             const std::size_t at = std::size_t{16} * rows.position[k];
-            const std::size_t opposite = std::size_t{16} * rows.position[modulo(-k, row_period)];
+            const std::size_t opposite = std::size_t{16} * rows.position[-k & (row_period - 1)];
             // X = A + i B, see store_real_columns16.
-            const float a = 0.5f * (j == 0 ? re[at] + re[opposite] : im[at] + im[opposite]);
-            const float b = 0.5f * (j == 0 ? im[at] - im[opposite] : re[opposite] - re[at]);
+            const float a = 0.5f * (first_of_pair ? re[at] + re[opposite] : im[at] + im[opposite]);
+            const float b = 0.5f * (first_of_pair ? im[at] - im[opposite] : re[opposite] - re[at]);
             const std::ptrdiff_t to = r * target.stride + c;
-            if (target.power != nullptr)
-                target.power[to] = (a * a + b * b) * factors.power[column] * rows.power[r];
+            if (target.power != nullptr) target.power[to] = (a * a + b * b) * factor_power * rows.power[r];
             if (target.re != nullptr) {
-                const float f = a * factors.re[column] - b * factors.im[column];
-                const float g = a * factors.im[column] + b * factors.re[column];
+                const float f = a * factor_re - b * factor_im, g = a * factor_im + b * factor_re;
                 target.re[to] = f * rows.re[r] - g * rows.im[r];
                 target.im[to] = f * rows.im[r] + g * rows.re[r];
             }
@@ -137,9 +133,9 @@ void store_real_pair(const float* re, const float* im, const SpectrumRows& rows,
 }
 
 void clear_half_period(const NaturalAxis& u, int rows, const FieldTarget& target) {
-    const std::int64_t period = u.period();
+    const int period = u.period();
     for (int c = 0; c < u.count; ++c) {
-        if (2 * modulo(u.first + c, period) != period) continue;
+        if (2 * ((u.first + c) & (period - 1)) != period) continue;
         for (int r = 0; r < rows; ++r) {
             const std::ptrdiff_t at = r * target.stride + c;
             if (target.power != nullptr) target.power[at] = 0;
