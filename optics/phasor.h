@@ -31,13 +31,16 @@ struct BoxTerms {
 /// frequencies u = first + (offset + l) step. An interval's transform is width * sinc(u width) * phasor of
 /// its centre, never a difference of antiderivatives: nothing cancels, and u = 0 gives the exact width.
 /// box_slope_panel: the derivatives of the same by u, times the ramp's step.
+/// point_panel: each interval stands for a point at its middle: the sum of weight * phasor.
 #define OBSCURA_PHASOR                                                                            \
     void phasors(const double* turns, int count, float* re, float* im) noexcept;                  \
     void phasor_row(const FrequencyRamp& ramp, double x, float* re, float* im) noexcept;          \
     void box_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re,       \
                    float* im) noexcept;                                                           \
     void box_slope_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re, \
-                         float* im) noexcept;
+                         float* im) noexcept;                                                     \
+    void point_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re,     \
+                     float* im) noexcept;
 namespace ref {
 OBSCURA_PHASOR
 }

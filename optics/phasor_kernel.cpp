@@ -61,4 +61,11 @@ void box_slope_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& term
     });
 }
 
+void point_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re,
+                 float* im) noexcept {
+    const F64 u = ramp16(ramp, offset);
+    fill_panel(terms, re, im,
+               [&](std::int32_t r) { return point_transform(u, terms.x0[r], terms.x1[r], terms.weight[r]); });
+}
+
 }  // namespace obscura::OBSCURA_ISA

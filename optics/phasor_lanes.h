@@ -73,6 +73,12 @@ OBSCURA_INLINE Phasor16 box_transform(const F64& u, double x0, double x1, float 
     return {size * p.re, size * p.im};
 }
 
+/// weight e^(-2 pi i u x) at the middle x of [x0, x1).
+OBSCURA_INLINE Phasor16 point_transform(const F64& u, double x0, double x1, float weight) {
+    const Phasor16 p = phasor(u * splat((x0 + x1) * 0.5));
+    return {splat(weight) * p.re, splat(weight) * p.im};
+}
+
 /// Derivative of sinc by t.
 OBSCURA_INLINE F32 sinc_slope(const F64& t) {
     using namespace phasor_terms;

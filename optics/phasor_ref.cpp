@@ -55,4 +55,11 @@ void box_slope_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& term
     });
 }
 
+void point_panel(const FrequencyRamp& ramp, int offset, const BoxTerms& terms, float* re,
+                 float* im) noexcept {
+    fill_panel(ramp, offset, terms, re, im, [&](double u, std::int32_t r) {
+        return point_transform(u, terms.x0[r], terms.x1[r], terms.weight[r]);
+    });
+}
+
 }  // namespace obscura::ref

@@ -72,6 +72,12 @@ inline Phasor box_transform(double u, double x0, double x1, float weight) {
     return {size * p.re, size * p.im};
 }
 
+/// weight e^(-2 pi i u x) at the middle x of [x0, x1).
+inline Phasor point_transform(double u, double x0, double x1, float weight) {
+    const Phasor p = phasor(u * ((x0 + x1) * 0.5));
+    return {weight * p.re, weight * p.im};
+}
+
 /// Derivative of sinc by t.
 inline float sinc_slope(double t) {
     using namespace phasor_terms;

@@ -12,6 +12,8 @@
 namespace obscura {
 namespace {
 
+enum class Transform { box, slope, point };
+
 /// Transforms of all terms at all frequencies of a ramp, in panels of sixteen.
 struct Factors {
     Buffer<float> re, im;
@@ -23,7 +25,8 @@ int panels_for(int count) {
     return (count + product_tile - 1) / product_tile;
 }
 
-Factors factors_of(const IntervalTerms& terms, const FrequencyRamp& ramp, bool slope, const Exec& exec) {
+Factors factors_of(const IntervalTerms& terms, const FrequencyRamp& ramp, Transform transform,
+                   const Exec& exec) {
     const auto panels = static_cast<std::size_t>(panels_for(ramp.count));
     const std::size_t size = static_cast<std::size_t>(terms.count()) * product_tile;
     Factors factors;
@@ -33,10 +36,16 @@ Factors factors_of(const IntervalTerms& terms, const FrequencyRamp& ramp, bool s
     parallel_for(panels, exec, [&](std::size_t p) {
         const int first = static_cast<int>(p) * product_tile;
         float *re = factors.re.data() + p * size, *im = factors.im.data() + p * size;
-        if (slope) {
-            OBSCURA_DISPATCH(exec.isa, box_slope_panel, ramp, first, terms.view(), re, im);
-        } else {
-            OBSCURA_DISPATCH(exec.isa, box_panel, ramp, first, terms.view(), re, im);
+        switch (transform) {
+            case Transform::box:
+                OBSCURA_DISPATCH(exec.isa, box_panel, ramp, first, terms.view(), re, im);
+                break;
+            case Transform::slope:
+                OBSCURA_DISPATCH(exec.isa, box_slope_panel, ramp, first, terms.view(), re, im);
+                break;
+            case Transform::point:
+                OBSCURA_DISPATCH(exec.isa, point_panel, ramp, first, terms.view(), re, im);
+                break;
         }
     });
     return factors;
@@ -59,13 +68,16 @@ int mirror_row(const FrequencyGrid& grid) {
 void separable_field(const SeparableTerms& terms, const FrequencyGrid& grid, const SeparableParams& params,
                      const FieldTarget& target, const Exec& exec) {
     CHECK(target.stride >= grid.width);
+    CHECK(!params.points || params.slope == Slope::none);
     CHECK(!params.add || (target.re != nullptr && target.im != nullptr));
     // The derivative by v is odd where F is even: its rows come in no conjugate pairs.
-    const bool slope_u = params.slope == Slope::u, slope_v = params.slope == Slope::v;
-    const int middle = slope_v ? -1 : mirror_row(grid);
+    const Transform plain = params.points ? Transform::point : Transform::box;
+    const Transform along_u = params.slope == Slope::u ? Transform::slope : plain,
+                    along_v = params.slope == Slope::v ? Transform::slope : plain;
+    const int middle = params.slope == Slope::v ? -1 : mirror_row(grid);
     const FrequencyRamp rows = row_ramp(grid, middle), columns{grid.first_u, grid.step_u, grid.width};
-    const Factors a = factors_of(terms.y, rows, slope_v, exec),
-                  b = factors_of(terms.x, columns, slope_u, exec);
+    const Factors a = factors_of(terms.y, rows, along_v, exec),
+                  b = factors_of(terms.x, columns, along_u, exec);
     const ProductPanels panels{a.re.data(), a.imaginary(), b.re.data(), b.imaginary(), terms.count()};
 
     ProductTarget to{target.re, target.im, target.power, target.stride, grid.width, grid.height};

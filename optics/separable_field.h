@@ -28,6 +28,7 @@ struct SeparableParams {
     bool add = false;                  ///< to the target's re and im, which must be there
     const BlockSet* blocks = nullptr;  ///< pixels of other blocks are left alone; null: all are wanted
     Slope slope = Slope::none;
+    bool points = false;  ///< intervals stand for points at their middles; no slopes then
 };
 
 /// Row of the grid at which v = 0, or -1: the rows around it come in conjugate pairs.

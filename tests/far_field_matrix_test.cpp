@@ -6,6 +6,7 @@
 
 #include "far_field_reference.h"
 #include "optics/far_field_methods.h"
+#include "optics/natural_grid.h"
 #include "optics/separable_terms.h"
 
 namespace obscura {
@@ -72,6 +73,49 @@ void gemm(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTar
 void edges(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
            const Exec& exec) {
     far_field_edges(mask, grid, 0, target, exec, nullptr);
+}
+
+void shift(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
+           const Exec& exec) {
+    far_field_shift(tree_quads(mask), grid, target, exec);
+}
+void levels(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
+            const Exec& exec) {
+    if (natural_grid(mask.width, mask.height, grid)) {
+        far_field_levels(tree_quads(mask), grid, target, exec);
+    } else {
+        EXPECT_THROW(far_field_levels(tree_quads(mask), grid, target, exec), InputError);
+        far_field_gemm(tree_quads(mask), grid, target, exec);
+    }
+}
+
+TEST(FarFieldShift, IsExact) {
+    expect_exact(shift);
+}
+TEST(FarFieldShift, SameBitsEverywhere) {
+    expect_same_bits(shift);
+}
+TEST(FarFieldLevels, IsExact) {
+    expect_exact(levels);
+}
+TEST(FarFieldLevels, SameBitsEverywhere) {
+    expect_same_bits(levels);
+}
+
+/// Windows of a natural grid: many periods away, odd sizes, other periods in v than in u.
+TEST(FarFieldLevels, WindowsAnywhereOnTheGrid) {
+    std::vector<NamedMask> masks = odd_masks();
+    for (NamedMask& shape : four_shapes(64))
+        masks.push_back(std::move(shape));
+    for (const NamedMask& m : masks) {
+        for (const FrequencyGrid& grid : {FrequencyGrid{70, 31, -200.0 / 64, 77.0 / 128, 1.0 / 64, 1.0 / 128},
+                                          FrequencyGrid{1, 300, 5, -150.0 / 64, 1.0 / 64, 1.0 / 64}}) {
+            ASSERT_TRUE(natural_grid(m.mask.width, m.mask.height, grid)) << m.name;
+            Field field = field_for(grid);
+            far_field_levels(tree_quads(m.mask.view()), grid, target_of(field), Exec{});
+            EXPECT_LT(worst_error(field, m.mask.view(), grid, open_area(m.mask.view())), tolerance) << m.name;
+        }
+    }
 }
 
 TEST(FarFieldGemm, IsExact) {

@@ -176,6 +176,47 @@ inline QuadList texel_quads(ImageView<const float> mask) {
     return list;
 }
 
+/// Quads of a plain quadtree: the largest aligned squares of one value, inside the mask.
+inline void add_squares(ImageView<const float> mask, int x, int y, int side, QuadList& list) {
+    if (x >= mask.width || y >= mask.height) return;
+    bool even = x + side <= mask.width && y + side <= mask.height;
+    for (int j = y; even && j < y + side; ++j) {
+        for (int i = x; i < x + side; ++i)
+            even = even && mask(i, j) == mask(x, y);
+    }
+    if (!even) {
+        const int half = side / 2;
+        for (const int k : {0, 1, 2, 3})
+            add_squares(mask, x + (k & 1) * half, y + (k >> 1) * half, half, list);
+        return;
+    }
+    if (mask(x, y) == 0.0f) return;
+    list.x.push_back(x);
+    list.y.push_back(y);
+    list.width.push_back(side);
+    list.height.push_back(side);
+    list.weight.push_back(mask(x, y));
+}
+/// And a rectangle of 3 x 2 finest cells with its opposite, which no plain quadtree has.
+inline QuadList tree_quads(ImageView<const float> mask) {
+    QuadList list;
+    list.columns = mask.width;
+    list.rows = mask.height;
+    int side = 1;
+    while (side < mask.width || side < mask.height)
+        side *= 2;
+    add_squares(mask, 0, 0, side, list);
+    if (open_area(mask) < 400) return list;  // rectangles that cancel must not be the larger part
+    for (const float weight : {1.0f, -1.0f}) {
+        list.x.push_back(4);
+        list.y.push_back(10);
+        list.width.push_back(6);
+        list.height.push_back(4);
+        list.weight.push_back(weight);
+    }
+    return list;
+}
+
 inline Field field_for(const FrequencyGrid& grid) {
     return {Image<float>(grid.width, grid.height), Image<float>(grid.width, grid.height)};
 }
