@@ -1,6 +1,9 @@
 #include "filters/convolution_fft.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -56,34 +59,67 @@ struct Convolver {
     }
 };
 
-/// Column by column of a group, zeros where the channel has no pixels. True when any is not 0.
-bool load_group(const Channel<const float>& from, const Rectangle& at, int group, int height, float* to) {
-    const int x0 = at.x + 16 * group;
-    const int begin = std::clamp(-x0, 0, 16), end = std::clamp(from.width - x0, 0, 16);
-    bool any = false;
-    for (int y = 0; y < height; ++y, to += 16) {
+/// Groups that are filled and read together: rows of 64 pixels, so that pictures are met along their rows.
+constexpr int groups_together = 4;
+
+/// Pixels [begin, end) of sixteen, zeros elsewhere. True when any is not 0.
+bool load_sixteen(const float* from, std::ptrdiff_t step, int begin, int end, float* to) {
+    if (begin == 0 && end == 16 && step == 1) {
+        std::memcpy(to, from, 16 * sizeof(float));
+    } else {
         std::fill_n(to, 16, 0.0f);
-        if (at.y + y < 0 || at.y + y >= from.height || begin >= end) continue;
-        const float* const row = from.row(at.y + y) + from.step * x0;
-        for (int x = begin; x < end; ++x) {
-            to[x] = row[from.step * x];
-            any |= to[x] != 0.0f;
-        }
+        for (int x = begin; x < end; ++x)
+            to[x] = from[step * x];
     }
-    return any;
+    std::uint32_t bits = 0;
+    for (int x = 0; x < 16; ++x)
+        bits |= std::bit_cast<std::uint32_t>(to[x]) << 1;
+    return bits != 0;
 }
 
-/// Columns of a group that are valid in the tile and exist in the result.
-void store_group(const Convolver& c, const Rectangle& at, int group, const float* from) {
-    const int first_x = c.lead_x(), first_y = c.lead_y();
-    const int x0 = at.x - first_x + 16 * group;  // in the result
-    const int begin = std::max(first_x - 16 * group, 0), end = std::min(c.channel.out.width - x0, 16);
-    const int rows = std::min(c.valid_height(), c.channel.out.height - at.y);
-    for (int y = 0; y < rows && begin < end; ++y) {
-        float* const row = c.channel.out.row(at.y + y) + c.channel.out.step * x0;
-        for (int x = begin; x < end; ++x)
-            row[c.channel.out.step * x] = from[16 * (first_y + y) + x];
+/// Groups [begin, end) of a tile's real or imaginary part (`plane`), zeros where the channel has no pixels.
+/// Marks those that are not all 0.
+void load_groups(const Channel<const float>& from, const Rectangle& at, int begin, int end, const Tile& tile,
+                 float* plane, char* used) {
+    for (int y = 0; y < tile.height; ++y) {
+        const bool row_exists = at.y + y >= 0 && at.y + y < from.height;
+        for (int g = begin; g < end; ++g) {
+            float* const to = plane + g * tile.group_step + 16 * y;
+            const int x0 = at.x + 16 * g;
+            const int first = std::clamp(-x0, 0, 16), last = std::clamp(from.width - x0, 0, 16);
+            if (!row_exists || first >= last) {
+                std::fill_n(to, 16, 0.0f);
+            } else if (load_sixteen(from.row(at.y + y) + from.step * x0, from.step, first, last, to)) {
+                used[g] = 1;
+            }
+        }
     }
+}
+
+/// What is valid in groups [begin, end) of a tile and exists in the result.
+void store_groups(const Convolver& c, const Rectangle& at, int begin, int end, const Tile& tile,
+                  const float* plane) {
+    const Channel<float>& out = c.channel.out;
+    const int rows = std::min(c.valid_height(), out.height - at.y);
+    for (int y = 0; y < rows; ++y) {
+        for (int g = begin; g < end; ++g) {
+            const float* const from = plane + g * tile.group_step + 16 * (c.lead_y() + y);
+            const int x0 = at.x - c.lead_x() + 16 * g;  // in the result
+            const int first = std::max(c.lead_x() - 16 * g, 0), last = std::min(out.width - x0, 16);
+            float* const row = out.row(at.y + y) + out.step * x0;
+            for (int x = first; x < last; ++x)
+                row[out.step * x] = from[x];
+        }
+    }
+}
+
+/// Calls fn(begin, end) for the groups from `first` on, a few at a time.
+template <class Fn>
+void for_groups(const Tile& tile, int first, const Exec& exec, const Fn& fn) {
+    parallel_blocks(static_cast<std::size_t>(tile.groups() - first), groups_together, exec,
+                    [&](std::size_t begin, std::size_t end) {
+                        fn(first + static_cast<int>(begin), first + static_cast<int>(end));
+                    });
 }
 
 /// Sixteen rows into `re`, `im` as [column][row], or back.
@@ -98,14 +134,21 @@ void rows_to(Tile& tile, int first, const float* re, const float* im, Isa isa) {
     OBSCURA_DISPATCH(isa, transpose_blocks, im, 256, tile.im.data() + at, tile.group_step, tile.groups());
 }
 
+/// Forward along y, but for groups that are 0 and stay so.
+void transform_columns(const Convolver& c, Tile& tile, int begin, int end, const char* used, Isa isa) {
+    for (int g = begin; g < end; ++g) {
+        const std::ptrdiff_t at = g * tile.group_step;
+        if (used[g] != 0) fft16_forward(c.along_y, tile.re.data() + at, tile.im.data() + at, isa);
+    }
+}
+
 /// The kernel's transform over the number of its coefficients, which is what forward and backward scale by.
 void transform_kernel(const Convolver& c, Tile& tile, const Exec& exec) {
-    parallel_for(static_cast<std::size_t>(tile.groups()), exec, [&](std::size_t g) {
-        float* const re = tile.re.data() + static_cast<std::ptrdiff_t>(g) * tile.group_step;
-        float* const im = tile.im.data() + static_cast<std::ptrdiff_t>(g) * tile.group_step;
-        std::fill_n(im, 16 * c.height(), 0.0f);
-        if (load_group(c.channel.kernel, {0, 0}, static_cast<int>(g), c.height(), re))
-            fft16_forward(c.along_y, re, im, exec.isa);
+    std::vector<char> used(static_cast<std::size_t>(tile.groups()));
+    std::fill(tile.im.begin(), tile.im.end(), 0.0f);
+    for_groups(tile, 0, exec, [&](int begin, int end) {
+        load_groups(c.channel.kernel, {0, 0}, begin, end, tile, tile.re.data(), used.data());
+        transform_columns(c, tile, begin, end, used.data(), exec.isa);
     });
     const std::size_t batch = 16 * static_cast<std::size_t>(c.width());
     const std::size_t batches = static_cast<std::size_t>(c.height() / 16);
@@ -145,20 +188,15 @@ void convolve_pair(const Convolver& c, Tile& tile, int pair, const Exec& exec) {
     Rectangle from[2];
     for (int i = 0; i < 2; ++i)
         from[i] = {to[i].x - c.lead_x(), to[i].y - c.lead_y()};
-    const auto groups = static_cast<std::size_t>(tile.groups());
-    std::vector<char> used(groups);
-    parallel_for(groups, exec, [&](std::size_t g) {
-        float* const re = tile.re.data() + static_cast<std::ptrdiff_t>(g) * tile.group_step;
-        float* const im = tile.im.data() + static_cast<std::ptrdiff_t>(g) * tile.group_step;
-        const bool first = load_group(c.channel.source, from[0], static_cast<int>(g), c.height(), re);
-        bool second = false;
+    std::vector<char> used(static_cast<std::size_t>(tile.groups()));
+    for_groups(tile, 0, exec, [&](int begin, int end) {
+        load_groups(c.channel.source, from[0], begin, end, tile, tile.re.data(), used.data());
         if (both) {
-            second = load_group(c.channel.source, from[1], static_cast<int>(g), c.height(), im);
+            load_groups(c.channel.source, from[1], begin, end, tile, tile.im.data(), used.data());
         } else {
-            std::fill_n(im, 16 * c.height(), 0.0f);
+            std::fill(tile.im.data() + begin * tile.group_step, tile.im.data() + end * tile.group_step, 0.0f);
         }
-        used[g] = first || second;
-        if (used[g]) fft16_forward(c.along_y, re, im, exec.isa);
+        transform_columns(c, tile, begin, end, used.data(), exec.isa);
     });
     if (std::none_of(used.begin(), used.end(), [](char any) { return any != 0; })) return;
     const auto batches = static_cast<std::size_t>(c.height() / 16);
@@ -166,14 +204,13 @@ void convolve_pair(const Convolver& c, Tile& tile, int pair, const Exec& exec) {
         convolve_rows(c, tile, begin, end, exec.isa);
     });
     // Groups before the first valid column need not come back.
-    const auto invalid = static_cast<std::size_t>(c.lead_x() / 16);
-    parallel_for(groups - invalid, exec, [&](std::size_t i) {
-        const std::size_t g = i + invalid;
-        float* const re = tile.re.data() + static_cast<std::ptrdiff_t>(g) * tile.group_step;
-        float* const im = tile.im.data() + static_cast<std::ptrdiff_t>(g) * tile.group_step;
-        fft16_backward(c.along_y, re, im, exec.isa);
-        store_group(c, to[0], static_cast<int>(g), re);
-        if (both) store_group(c, to[1], static_cast<int>(g), im);
+    for_groups(tile, c.lead_x() / 16, exec, [&](int begin, int end) {
+        for (int g = begin; g < end; ++g) {
+            const std::ptrdiff_t at = g * tile.group_step;
+            fft16_backward(c.along_y, tile.re.data() + at, tile.im.data() + at, exec.isa);
+        }
+        store_groups(c, to[0], begin, end, tile, tile.re.data());
+        if (both) store_groups(c, to[1], begin, end, tile, tile.im.data());
     });
 }
 
