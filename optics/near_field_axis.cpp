@@ -84,14 +84,16 @@ void EdgeTable::fill_rows(const PlaneAxis& axis, double turns, const std::vector
     const int middle = axis.texels / 2;
     parallel_for(edges.size(), exec, [&](std::size_t e) {
         for (int i = 0; i < axis.pixels; ++i) {
-            const double d = axis.distance(edges[e], i);
+            // From the middle outwards, to either side: E is odd, so both begin at the same distance,
+            // exactly.
+            const double d = axis.distance(middle, i);
             FresnelValue v;
             if (!narrow) {
-                v = fresnel_at(turns, d);
+                v = fresnel_at(turns, axis.distance(edges[e], i));
             } else if (edges[e] >= middle) {
-                v = fresnel_between(turns, axis.distance(middle, i), edges[e] - middle);
+                v = fresnel_between(turns, d, edges[e] - middle);
             } else {
-                v = fresnel_between(turns, d, middle - edges[e]);
+                v = fresnel_between(turns, -d, middle - edges[e]);
                 v = {-v.c, -v.s};
             }
             re_[e * pixels + static_cast<std::size_t>(i)] = v.c;
