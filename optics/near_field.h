@@ -41,8 +41,9 @@ struct NearFieldParams {
     double wavelength_m = 550e-9;
     double distance_m = 0;  ///< z > 0
     NearFieldMethod method = NearFieldMethod::automatic;
-    /// Edges only: blocks of 8 x 8 pixels become 0 where the power at their centre is below this share of the
-    /// unobstructed wave's (the thesis samples values alone, too). The other methods compute every pixel.
+    /// Edges only: blocks of 8 x 8 pixels become 0 where the power at their centre and at their eight
+    /// neighbours' centres is below this share of the unobstructed wave's (the thesis samples values alone,
+    /// too: there is no simple gradient). The other methods compute every pixel.
     double cull = 0;
     /// 2^coarse_levels texels in a row become one first: the finest level of a coarser quadtree. Binary masks
     /// stay binary. What then remains exact is the field of the coarser mask; its edges are off by up to half

@@ -12,8 +12,18 @@
 namespace obscura {
 namespace {
 
-/// Blocks of 8 x 8 pixels whose centre is at least as bright as `cull`. The thesis (section 3.5.2) samples
-/// values only, since the near field has no simple gradient; dark rings narrower than a block are lost.
+/// The block or one of its neighbours is bright.
+bool is_wanted(const Image<float>& power, int x, int y, double cull) {
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, power.height - 1); ++j) {
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, power.width - 1); ++i) {
+            if (static_cast<double>(power(i, j)) >= cull) return true;
+        }
+    }
+    return false;
+}
+
+/// Blocks of 8 x 8 pixels to compute, from one sample each. The thesis (section 3.5.2) takes the samples
+/// alone; rings narrower than a block then go missing next to bright ones, so neighbours count here.
 BlockSet bright_blocks(const NearFieldCase& c, const SeparableTerms& terms, double cull, const Exec& exec) {
     NearFieldCase sampled = c;
     sampled.grid.width = (c.grid.width + 7) / 8;
@@ -25,8 +35,10 @@ BlockSet bright_blocks(const NearFieldCase& c, const SeparableTerms& terms, doub
     near_field_separable(sampled, terms, nullptr, {nullptr, nullptr, power.pixels.data(), sampled.grid.width},
                          exec);
     BlockSet blocks{power.width, power.height, {}};
-    for (const float p : power.pixels)
-        blocks.active.push_back(static_cast<double>(p) >= cull ? 1 : 0);
+    for (int y = 0; y < power.height; ++y) {
+        for (int x = 0; x < power.width; ++x)
+            blocks.active.push_back(is_wanted(power, x, y, cull) ? 1 : 0);
+    }
     return blocks;
 }
 
