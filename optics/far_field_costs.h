@@ -14,6 +14,7 @@ double far_field_gemm_cost_ns(const QuadList& quads, const FrequencyGrid& grid);
 double far_field_shift_cost_ns(const QuadList& quads, const FrequencyGrid& grid);
 /// 1e300 for grids that are not natural.
 double far_field_levels_cost_ns(const QuadList& quads, const FrequencyGrid& grid);
+double far_field_polygon_cost_ns(const Outline& outline, const FrequencyGrid& grid);
 /// Decomposes the mask to count its distinct columns (about a nanosecond a texel).
 double far_field_edges_cost_ns(ImageView<const float> mask, const FrequencyGrid& grid);
 

@@ -34,6 +34,16 @@ OBSCURA_INLINE F32 cosine(const F32& z) {
     return (((z * splat(c4) + splat(c3)) * z + splat(c2)) * (z * z) - z * splat(0.5f)) + splat(1.0f);
 }
 
+/// cosine - 1; and sinc - 1 of turns below short_of_turn, in z = (pi t)^2.
+OBSCURA_INLINE F32 cosine_less_one(const F32& z) {
+    using namespace phasor_terms;
+    return ((z * splat(c4) + splat(c3)) * z + splat(c2)) * (z * z) - z * splat(0.5f);
+}
+OBSCURA_INLINE F32 sinc_less_one(const F32& z) {
+    using namespace phasor_terms;
+    return ((z * splat(s3) + splat(s2)) * z + splat(s1)) * z;
+}
+
 /// Bit 1 of `quarter`, as the sign bit of a float.
 OBSCURA_INLINE F32 sign_of_half(const I32& quarter) {
     return bitcast_f32(shift_left<30>(quarter & splat(std::int32_t{2})));

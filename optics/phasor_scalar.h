@@ -36,6 +36,16 @@ inline float cosine(float z) {
     return (((z * c4 + c3) * z + c2) * (z * z) - z * 0.5f) + 1.0f;
 }
 
+/// cosine - 1; and sinc - 1 of turns below short_of_turn, in z = (pi t)^2. Accurate where they are small.
+inline float cosine_less_one(float z) {
+    using namespace phasor_terms;
+    return ((z * c4 + c3) * z + c2) * (z * z) - z * 0.5f;
+}
+inline float sinc_less_one(float z) {
+    using namespace phasor_terms;
+    return ((z * s3 + s2) * z + s1) * z;
+}
+
 /// e^(-2 pi i t).
 inline Phasor phasor(double t) {
     const ReducedTurn r = reduced_turn(t);
