@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/buffer.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "filters/fft.h"
 #include "optics/far_field_methods.h"
@@ -80,7 +81,8 @@ void far_field_raster_fft(ImageView<const float> mask, const NaturalTransform& t
 void far_field_raster_fft(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
                           const Exec& exec) {
     const auto natural = natural_grid(mask.width, mask.height, grid);
-    CHECK(natural.has_value());
+    if (!natural)
+        throw InputError("far field", "raster_fft needs a grid whose phases repeat: a step of 1 / 2^k");
     far_field_raster_fft(mask, natural_transform(mask.width, mask.height, *natural), target, exec);
 }
 

@@ -1,0 +1,219 @@
+// obscura diffraction from outside: patterns with known answers, plans, files and mistakes.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/image_io.h"
+#include "program.h"
+
+namespace obscura::test {
+namespace {
+
+Image<float> grey_pfm(const Folder& folder, const std::string& name) {
+    return std::get<Image<float>>(decode_pfm(file_text(folder / name), name));
+}
+
+Image<Vec3f> colour_pfm(const Folder& folder, const std::string& name) {
+    return std::get<Image<Vec3f>>(decode_pfm(file_text(folder / name), name));
+}
+
+TEST(DiffractionCommand, ABoxGivesSquaredSincs) {
+    const Folder folder;
+    const Outcome run = run_in(
+        folder, {"diffraction", "box", "--mask-size", "100", "--size", "128", "--zoom", "4", "-o", "b.pfm"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Image<float> power = grey_pfm(folder, "b.pfm");
+    const auto sinc2 = [](double x) {
+        const double a = 3.14159265358979 * 90 * x / 512;  // 90 texels open, steps of 1 / 512 cycle
+        return x == 0 ? 1.0 : std::pow(std::sin(a) / a, 2);
+    };
+    for (int y = 0; y < 128; ++y) {
+        for (int x = 0; x < 128; ++x)
+            ASSERT_NEAR(power(x, y), sinc2(x - 64) * sinc2(y - 64), 2e-6) << x << " " << y;
+    }
+}
+
+TEST(DiffractionCommand, SlitsDoNotDependOnTheMethod) {
+    const Folder folder;
+    std::vector<Image<float>> powers;
+    for (const char* method : {"automatic", "edges", "runs"}) {
+        const Outcome run =
+            run_in(folder, {"diffraction", "slit", "--slits", "2", "--mask-size", "64", "--size", "64",
+                            "--method", method, "-o", "s.pfm", "--overwrite"});
+        ASSERT_EQ(run.code, 0) << run.err;
+        powers.push_back(grey_pfm(folder, "s.pfm"));
+    }
+    for (const Image<float>& power : powers) {
+        EXPECT_NEAR(power(32, 32), 1, 1e-5);
+        for (std::size_t i = 0; i < power.pixels.size(); ++i)
+            ASSERT_NEAR(power.pixels[i], powers[0].pixels[i], 3e-6);
+    }
+}
+
+TEST(DiffractionCommand, CentreMovesTheWindow) {
+    const Folder folder;
+    const std::vector<std::string> line = {"diffraction", "iris", "--mask-size", "64", "--size", "64"};
+    auto whole = line, part = line;
+    whole.insert(whole.end(), {"-o", "a.pfm"});
+    // 8 steps of 1/64 cycle per texel are 8 cycles per mask of 64 texels.
+    part.insert(part.end(), {"-o", "b.pfm", "--centre", "8,-4"});
+    ASSERT_EQ(run_in(folder, whole).code, 0);
+    ASSERT_EQ(run_in(folder, part).code, 0);
+    const Image<float> a = grey_pfm(folder, "a.pfm"), b = grey_pfm(folder, "b.pfm");
+    for (int y = 4; y < 64; ++y) {
+        for (int x = 0; x < 56; ++x)
+            ASSERT_NEAR(b(x, y), a(x + 8, y - 4), 1e-6);
+    }
+}
+
+TEST(DiffractionCommand, AmplitudesSquareToThePower) {
+    const Folder folder;
+    const Outcome run = run_in(
+        folder, {"diffraction", "whirl", "--mask-size", "128", "--size", "64", "--amplitude", "-o", "w.pfm"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"w.im.pfm", "w.pfm", "w.re.pfm"}));
+    const Image<float> power = grey_pfm(folder, "w.pfm"), re = grey_pfm(folder, "w.re.pfm"),
+                       im = grey_pfm(folder, "w.im.pfm");
+    double odd = 0;
+    for (std::size_t i = 0; i < power.pixels.size(); ++i) {
+        ASSERT_NEAR(power.pixels[i], re.pixels[i] * re.pixels[i] + im.pixels[i] * im.pixels[i], 1e-6f);
+        odd = std::max(odd, std::fabs(static_cast<double>(im.pixels[i])));
+    }
+    EXPECT_GT(odd, 1e-3) << "a pinwheel has no mirror symmetry";
+}
+
+TEST(DiffractionCommand, ASpotStandsBehindADisc) {
+    // An annulus nearly all obstruction is an opaque disc in a wide opening: light on its axis (Poisson).
+    const Folder folder;
+    const Outcome run = run_in(folder, {"diffraction", "circle", "--near", "2000", "--mask-size", "256",
+                                        "--size", "65", "--zoom", "8", "-o", "c.pfm"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    // 5 mm at 2 m: Fresnel number of the opening a^2 / (lambda z), intensity 4 sin^2(pi F / 2) on the axis.
+    const double fresnel = 0.0025 * 0.0025 / (550e-9 * 2),
+                 expected = 4 * std::pow(std::sin(1.5707963267948966 * fresnel), 2);
+    const Image<float> light = grey_pfm(folder, "c.pfm");
+    EXPECT_NEAR(light(32, 32), expected, 0.06) << "the mask has texels";
+    EXPECT_NE(run.out.find("near field at 2000 mm"), std::string::npos) << run.out;
+}
+
+TEST(DiffractionCommand, ColoursRunFromBlueInsideToRedOutside) {
+    const Folder folder;
+    const Outcome run = run_in(folder, {"diffraction", "circle", "--spectrum", "d65", "--mask-size", "128",
+                                        "--size", "128", "--zoom", "16", "-o", "c.pfm", "-o", "c.png"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"c.pfm", "c.png"}));
+    const Image<Vec3f> colour = colour_pfm(folder, "c.pfm");
+    // The first dark ring of blue lies inside that of red: on it blue is weaker than red, and at the centre
+    // not.
+    const Vec3f middle = colour(64, 64);
+    EXPECT_GT(middle.z, 1.5f * middle.x) << "short waves are spread least";
+    // Airy's first zero: 1.22 / (0.9 * 128) cycle per texel at 550 nm, 2048 steps a cycle: 21.7 pixels.
+    const auto sum_over = [&](int from, int to) {
+        Vec3f sum;
+        for (int x = from; x < to; ++x)
+            sum = sum + colour(64 + x, 64);
+        return sum;
+    };
+    const Vec3f inner = sum_over(17, 20), outer = sum_over(22, 25);
+    EXPECT_GT(inner.x, 1.3f * inner.z) << "where blue has its zero, red is left";
+    EXPECT_GT(outer.z + outer.x, outer.y * 1.2f) << "where green has its zero, purple is left";
+}
+
+TEST(DiffractionCommand, ThePlanNamesMethodAndReason) {
+    const Folder folder;
+    const Outcome run = run_in(folder, {"diffraction", "iris", "--plan", "--blades", "5", "--diameter-mm",
+                                        "9", "--wavelength_nm", "500"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(folder.listing().empty());
+    EXPECT_NE(run.out.find("(10 mm wide)"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("method    "), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("at 500 nm"), std::string::npos) << run.out;
+}
+
+TEST(DiffractionCommand, StatisticsAreJson) {
+    const Folder folder;
+    ASSERT_EQ(run_in(folder, {"diffraction", "box", "--mask-size", "64", "--size", "64", "--stats-json",
+                              "s.json", "-o", "b.png"})
+                  .code,
+              0);
+    const std::string text = file_text(folder / "s.json");
+    for (const char* member :
+         {"\"method\": ", "\"reason\": ", "\"planned_ms\": ", "\"field\": \"far\"", "\"open_texels\": "})
+        EXPECT_NE(text.find(member), std::string::npos) << member << text;
+}
+
+TEST(DiffractionCommand, EveryInstructionSetGivesTheSameFile) {
+    const Folder folder;
+    std::string expected;
+    for (const char* isa : {"ref", "sse2", "auto"}) {
+        for (const char* threads : {"1", "3"}) {
+            ASSERT_EQ(
+                run_in(folder, {"diffraction", "iris", "--mask-size", "64", "--size", "96", "--spectrum",
+                                "blackbody:3000", "--isa", isa, "-t", threads, "--overwrite", "-o", "i.pfm"})
+                    .code,
+                0);
+            const std::string bytes = file_text(folder / "i.pfm");
+            if (expected.empty()) expected = bytes;
+            EXPECT_TRUE(bytes == expected) << isa << " " << threads;
+        }
+    }
+}
+
+struct Mistake {
+    std::vector<std::string> flags;
+    int code;
+    std::string message;
+};
+
+TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
+    const Folder folder;
+    const std::vector<Mistake> mistakes = {
+        {{"iris", "--wavelength_nm", "0.55"},
+         2,
+         "--wavelength-nm: 0.55 nm is not from 10 to 1e6; did you mean 550 nm?"},
+        {{"iris", "--wavelength-nm", "5.5e-7"}, 2, "did you mean 550 nm?"},
+        {{"iris", "--wavelength-nm", "-550"}, 2, "-550 nm is not from 10 to 1e6"},
+        {{"iris", "--near", "0"}, 2, "--near: 0 mm is not in front of the aperture; give a distance above 0"},
+        {{"iris", "--near", "-5"}, 2, "--near: -5 mm is not in front of the aperture"},
+        {{"iris", "--near", "5", "--far"}, 2, "give either --far or --near, not both"},
+        {{"iris", "--method", "fast"}, 2, "--method: 'fast' is not one of automatic, direct"},
+        {{"iris", "--method", "rnus"}, 2, "did you mean 'runs'?"},
+        {{"iris", "--near", "5", "--method", "polygon"},
+         2,
+         "--method: 'polygon' is not one of automatic, direct, two_pass"},
+        {{"iris", "--method", "raster_fft", "--size", "1000"}, 3, "raster_fft"},
+        {{"irsi"}, 2, "did you mean 'iris'?"},
+        {{"iris", "--spectrum", "d56"}, 2, "did you mean 'd65'?"},
+        {{"iris", "--spectrum", "blackbody:3"}, 2, "--spectrum: '3' is not a number from 500"},
+        {{"iris", "--spectrum", "d65", "--wavelength-nm", "500"},
+         2,
+         "give either --wavelength-nm or --spectrum"},
+        {{"iris", "--spectrum", "d65", "--amplitude"}, 2, "--amplitude is of one wavelength"},
+        {{"iris", "--wavelengths", "9"}, 2, "--wavelengths needs --spectrum"},
+        {{"iris", "--pitch-um", "5x6"}, 2, "texels must be square"},
+        {{"iris", "--pitch-um", "5", "--diameter-mm", "6"}, 2, "give either --diameter-mm or --pitch-um"},
+        {{"iris", "--centre", "4"}, 2, "--centre: '4' is not like 12.5,-3"},
+        {{"iris", "--log", "--linear"}, 2, "give either --log or --linear"},
+        {{"iris", "--size", "900000"}, 4, "more than --limit-memory 4096"},
+        {{"iris", "--size", "2048", "--limit-memory", "8"}, 4, "more than --limit-memory 8"},
+        {{"iris", "--blades", "2"}, 2, "--blades: '2' is not a whole number from 3 to 64"},
+        {{"iris", "-o", "a.jpg"}, 2, "pictures end in .png"},
+        {{"iris", "-o", "none/a.png"}, 5, "none/a.png: cannot be created"},
+        {{}, 2, "APERTURE is missing"},
+    };
+    for (const Mistake& m : mistakes) {
+        std::vector<std::string> line{"diffraction"};
+        line.insert(line.end(), m.flags.begin(), m.flags.end());
+        const Outcome run = run_in(folder, line);
+        EXPECT_EQ(run.code, m.code) << m.message << run.err;
+        EXPECT_NE(run.err.find(m.message), std::string::npos) << run.err << "instead of " << m.message;
+    }
+    EXPECT_TRUE(folder.listing().empty());
+}
+
+}  // namespace
+}  // namespace obscura::test
