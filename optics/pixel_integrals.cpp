@@ -11,14 +11,20 @@ namespace obscura {
 
 namespace {
 
-constexpr int columns_per_band = 128;
 constexpr int rows_per_item = 32;
+constexpr std::int64_t cells_per_band = std::int64_t{1} << 22;
+constexpr std::int64_t least_columns_per_band = 128;
 
-/// Cells over the half plane u >= 0: `columns` from u = 0 on, `rows` above and as many below v = 0.
+/// Cells around samples k cell: columns k = 0 to columns - 1 of the half plane u >= 0, of whose first only
+/// the right half counts; rows k = -rows to rows.
 struct Cells {
     double side = 0;
     int columns = 0, rows = 0;
-    int borders() const { return 2 * rows + 1; }
+    int height() const { return 2 * rows + 1; }
+    int columns_per_band() const {
+        const std::int64_t fit = std::max(least_columns_per_band, cells_per_band / height());
+        return static_cast<int>(std::min<std::int64_t>(fit, columns));
+    }
 };
 
 Cells cells_of(double cell, int radius_px, const std::vector<PixelLight>& lights) {
@@ -28,7 +34,7 @@ Cells cells_of(double cell, int radius_px, const std::vector<PixelLight>& lights
     const double reach = std::ceil((radius_px + 0.5) * widest / cell);
     if (!(reach < (1 << 20))) throw LimitError("a point spread function needs too many frequencies");
     const int count = static_cast<int>(reach) + 1;
-    return {cell, count, count};
+    return {cell, count + 1, count};
 }
 
 /// A place between two borders of cells.
@@ -37,9 +43,14 @@ struct Place {
     double beyond = 0;  ///< in [0, 1)
 };
 
-Place place_of(double cells) {
-    const double border = std::floor(cells);
-    return {static_cast<int>(border), cells - border};
+Place place_of(double borders) {
+    const double border = std::floor(borders);
+    return {static_cast<int>(border), borders - border};
+}
+
+/// Border column 0 is at u = 0, border column k at u = (k - 1/2) cells.
+Place column_place(double cells) {
+    return cells < 0.5 ? Place{0, 2 * cells} : place_of(cells + 0.5);
 }
 
 /// Integrals from (0, least v) to a border column and a border row, in units of a cell, for the border
@@ -51,19 +62,29 @@ struct Table {
     const double* row(int k) const { return sums.data() + static_cast<std::ptrdiff_t>(k) * borders; }
 };
 
+/// Sums down sixteen columns of the band at a time, so that whole cache lines of the power are read.
+void sum_columns(Table& table, const Image<float>& power, int begin, int end) {
+    double sum[16] = {};
+    for (int x = begin; x < end; ++x)
+        table.row(x + 1)[0] = 0;
+    for (int y = 0; y < power.height; ++y) {
+        const float* row = power.row(y);
+        for (int x = begin; x < end; ++x)
+            table.row(x + 1)[y + 1] = sum[x - begin] += static_cast<double>(row[x]);
+    }
+    if (table.first > 0 || begin > 0) return;
+    for (int y = 0; y <= power.height; ++y)
+        table.row(1)[y] *= 0.5;
+}
+
 /// Moves the table on to the next band; its last column becomes the first.
 void advance(Table& table, const Image<float>& power, const Exec& exec) {
     const double* last = table.row(table.count - 1);
     std::copy(last, last + table.borders, table.row(0));
     table.first += table.count - 1;
     table.count = power.width + 1;
-    // Down each column of the band, then across.
-    parallel_for(static_cast<std::size_t>(power.width), exec, [&](std::size_t item) {
-        const int x = static_cast<int>(item);
-        double* row = table.row(x + 1);
-        double sum = row[0] = 0;
-        for (int y = 0; y < power.height; ++y)
-            row[y + 1] = sum += static_cast<double>(power(x, y));
+    parallel_blocks(static_cast<std::size_t>(power.width), 16, exec, [&](std::size_t begin, std::size_t end) {
+        sum_columns(table, power, static_cast<int>(begin), static_cast<int>(end));
     });
     parallel_blocks(static_cast<std::size_t>(table.borders), 512, exec,
                     [&](std::size_t begin, std::size_t end) {
@@ -91,15 +112,17 @@ std::vector<Passage> passages_of(const Cells& cells, int radius_px, const std::v
         Passage passage;
         passage.light = light;
         for (int m = 0; m <= side; ++m)
-            passage.edges.push_back(place_of((m - radius_px - 0.5) * light.pixel / cells.side + cells.rows));
+            passage.edges.push_back(
+                place_of((m - radius_px - 0.5) * light.pixel / cells.side + cells.rows + 0.5));
         passage.before.assign(static_cast<std::size_t>(side), 0.0);
         passages.push_back(std::move(passage));
     }
     return passages;
 }
 
-double right_border(const Passage& passage, const Cells& cells, int column) {
-    return (column + 0.5) * passage.light.pixel / cells.side;
+/// Where the right border of a column of pixels lies among the border columns.
+Place right_border(const Passage& passage, const Cells& cells, int column) {
+    return column_place((column + 0.5) * passage.light.pixel / cells.side);
 }
 
 /// Adds the pixels of rows [begin, end) whose right borders the band holds. Column x of the half kernel is
@@ -107,9 +130,9 @@ double right_border(const Passage& passage, const Cells& cells, int column) {
 void gather(Passage& passage, const Table& table, const Cells& cells, int begin, int end,
             Image<Vec3d>& half) {
     for (int column = passage.next; column < passage.end; ++column) {
-        const Place at = place_of(right_border(passage, cells, column) - table.first);
-        const double* left = table.row(at.border);
-        const double* right = table.row(at.border + 1);
+        const Place at = right_border(passage, cells, column);
+        const double* left = table.row(at.border - table.first);
+        const double* right = table.row(at.border - table.first + 1);
         const auto up_to = [&](const Place& edge) {
             const double above = left[edge.border] + at.beyond * (right[edge.border] - left[edge.border]);
             const double below =
@@ -149,20 +172,18 @@ Image<Vec3d> integrate_over_pixels(const PowerSource& power, double cell, int ra
     CHECK(cell > 0 && radius_px >= 0 && !lights.empty());
     const Cells cells = cells_of(cell, radius_px, lights);
     std::vector<Passage> passages = passages_of(cells, radius_px, lights);
-    const int side = 2 * radius_px + 1;
+    const int side = 2 * radius_px + 1, band = cells.columns_per_band();
     Image<Vec3d> half(side, radius_px + 1);
-    Table table{0, 1, cells.borders(), {}};
-    table.sums.assign(
-        static_cast<std::size_t>(columns_per_band + 1) * static_cast<std::size_t>(table.borders), 0.0);
+    Table table{0, 1, cells.height() + 1, {}};
+    table.sums.assign(static_cast<std::size_t>(band + 1) * static_cast<std::size_t>(table.borders), 0.0);
 
-    for (int first = 0; first < cells.columns; first += columns_per_band) {
-        const int width = std::min(columns_per_band, cells.columns - first);
-        advance(table,
-                power({width, 2 * cells.rows, (first + 0.5) * cell, (0.5 - cells.rows) * cell, cell, cell}),
-                exec);
+    for (int first = 0; first < cells.columns; first += band) {
+        const int width = std::min(band, cells.columns - first);
+        advance(table, power({width, cells.height(), first * cell, -cells.rows * cell, cell, cell}), exec);
         for (Passage& passage : passages) {
             passage.next = passage.end;
-            while (passage.end <= radius_px && right_border(passage, cells, passage.end) < first + width)
+            while (passage.end <= radius_px &&
+                   right_border(passage, cells, passage.end).border < first + width)
                 ++passage.end;
         }
         parallel_blocks(
@@ -177,7 +198,7 @@ Image<Vec3d> integrate_over_pixels(const PowerSource& power, double cell, int ra
 
 std::int64_t pixel_integral_samples(double cell, int radius_px, const std::vector<PixelLight>& lights) {
     const Cells cells = cells_of(cell, radius_px, lights);
-    return std::int64_t{2} * cells.columns * cells.rows;
+    return std::int64_t{cells.columns} * cells.height();
 }
 
 }  // namespace obscura

@@ -82,9 +82,21 @@ int wavelength_count(const Aperture& aperture, const PsfParams& params, double t
     return spectral_rate(params.light, fringes, params.tolerance).count;
 }
 
-/// Cells along a pixel's side where pixels, not the fringes, set them: power is constant over each.
-double cells_per_pixel(double tolerance) {
-    return std::clamp(4 * std::sqrt(0.01 / tolerance), 2.0, 16.0);
+/// Side of the cells that sample the power, in cycles per texel: half a fringe of the aperture's extent, or a
+/// share of a pixel where that is less. Masks get a power of two of cycles, which fast Fourier transforms
+/// serve.
+double cell_for(const Pupil& pupil, double pixel, double tolerance) {
+    const OpenExtent extent = open_extent(pupil.aperture.mask.view());
+    const double fringe = 1.0 / std::max(extent.width, extent.height);
+    // Constant power over cells is wrong by 0.3 (cell / fringe)^2 of the peak at worst.
+    const double finer = std::sqrt(0.01 / tolerance);
+    const double share = std::max(pixel / 8, std::min(pixel / 4, fringe / 8)) / std::max(1.0, finer);
+    const double most = std::min(fringe / 2, share);
+    if (pupil.far_field.method == FarFieldMethod::polygon) return most;
+    double cell = 1;
+    while (cell > most || cell * std::max(pupil.aperture.mask.width, pupil.aperture.mask.height) > 1)
+        cell /= 2;
+    return cell;
 }
 
 /// Sums of X, Y and Z over a kernel.
@@ -127,9 +139,7 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
         (params.radius_px + 0.5) * cycles_per_pixel(params, samples.front().wavelength_nm) / diameter;
     const Pupil pupil = pupil_for(aperture, highest);
     const double texels = pupil.aperture.mask.width;
-    const OpenExtent extent = open_extent(pupil.aperture.mask.view());
-    const double cell = std::min(1.0 / (2.0 * std::max(extent.width, extent.height)),
-                                 reference_cycles / texels / cells_per_pixel(params.tolerance));
+    const double cell = cell_for(pupil, reference_cycles / texels, params.tolerance);
 
     std::vector<PixelLight> lights;
     for (const SpectralSample& sample : samples)
@@ -141,12 +151,13 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
         },
         cell, params.radius_px, lights, exec);
 
+    FarFieldReport plan = plan_far_field(pupil.aperture, centred_grid(64, 64, cell), pupil.far_field);
     Psf psf;
     psf.captured = sum_of(xyz).y;
     psf.wavelengths = static_cast<int>(samples.size());
     psf.cycles_per_px = reference_cycles;
     psf.highest_cycles_per_texel = highest * diameter / texels;
-    psf.method = pupil.far_field.method;
+    psf.method = plan.method;
     psf.frequencies = pixel_integral_samples(cell, params.radius_px, lights);
     psf.kernel = balanced_kernel(std::move(xyz), params.light);
     return psf;
