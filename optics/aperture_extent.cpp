@@ -61,15 +61,4 @@ double transmitted_power(ImageView<const float> mask) {
     return sum;
 }
 
-double outline_area(const Outline& outline) {
-    double twice = 0;
-    for (const auto& loop : outline.loops) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-            const Vec2d a = loop[i], b = loop[(i + 1) % loop.size()];
-            twice += a.x * b.y - a.y * b.x;
-        }
-    }
-    return twice / 2;
-}
-
 }  // namespace obscura

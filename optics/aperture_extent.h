@@ -18,7 +18,4 @@ double fringes_to(ImageView<const float> mask, double u, double v);
 /// Integral of the squared transmission in texels^2, which is that of |F|^2 over all frequencies (Parseval).
 double transmitted_power(ImageView<const float> mask);
 
-/// Signed area of an outline's loops: that of the opening when they are disjoint.
-double outline_area(const Outline& outline);
-
 }  // namespace obscura

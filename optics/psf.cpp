@@ -10,6 +10,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/num.h"
+#include "core/parallel.h"
 #include "optics/aperture_extent.h"
 #include "optics/outline_coverage.h"
 #include "optics/pixel_integrals.h"
@@ -19,7 +21,6 @@ namespace obscura {
 namespace {
 
 constexpr double reference_nm = 550;
-constexpr int most_exact_corners = 96;  ///< outlines of more are cheaper as masks
 constexpr int finest_mask = 4096;
 constexpr double faithful_cycles_per_texel = 0.25;
 
@@ -40,27 +41,18 @@ double cycles_per_pixel(const PsfParams& params, double wavelength_nm) {
 /// The aperture in the form that serves the frequencies wanted.
 struct Pupil {
     Aperture aperture;
-    FarFieldParams far_field;
-    double power = 0;  ///< Parseval's total
+    bool coverage = false;  ///< the mask is the exact coverage of a known outline
+    double power = 0;       ///< Parseval's total
 };
 
-/// Few straight edges: their closed form, exact at every frequency. Other outlines: a mask fine enough. Only
-/// a mask: that.
+/// Where the outline is known: a mask fine enough.
 Pupil pupil_for(const Aperture& aperture, double cycles_per_texel) {
-    Pupil pupil{aperture, {}, 0};
-    std::size_t corners = 0;
-    for (const auto& loop : aperture.outline.loops)
-        corners += loop.size();
-    if (aperture.outline.disjoint && corners > 0 && corners <= most_exact_corners) {
-        pupil.far_field.method = FarFieldMethod::polygon;
-        pupil.power = std::fabs(outline_area(aperture.outline));
-        return pupil;
-    }
+    Pupil pupil{aperture, !aperture.outline.loops.empty(), 0};
+    const int side = std::max(aperture.mask.width, aperture.mask.height);
     int finer = 1;
-    while (corners > 0 && cycles_per_texel / finer > faithful_cycles_per_texel &&
-           std::max(aperture.mask.width, aperture.mask.height) * finer * 2 <= finest_mask)
+    while (cycles_per_texel / finer > faithful_cycles_per_texel && side * finer * 2 <= finest_mask)
         finer *= 2;
-    if (finer > 1) {
+    if (pupil.coverage && finer > 1) {
         pupil.aperture.pitch_m /= finer;
         for (auto& loop : pupil.aperture.outline.loops) {
             for (Vec2d& p : loop)
@@ -69,8 +61,34 @@ Pupil pupil_for(const Aperture& aperture, double cycles_per_texel) {
         pupil.aperture.mask =
             coverage_of(pupil.aperture.outline, aperture.mask.width * finer, aperture.mask.height * finer);
     }
-    pupil.power = transmitted_power(pupil.aperture.mask.view());
+    const auto mask = pupil.aperture.mask.view();
+    pupil.power = pupil.coverage ? open_area(mask) : transmitted_power(mask);
     return pupil;
+}
+
+/// What coverage has dimmed at a frequency: texels of the mean of a shape hold its pattern times sinc(u)
+/// sinc(v), up to half a cycle per texel.
+double coverage_gain(double frequency) {
+    const double x = num::pi * std::min(std::fabs(frequency), 0.5);
+    const double sinc = x == 0 ? 1 : num::sin(x) / x;
+    return 1 / (sinc * sinc);
+}
+
+Image<float> pupil_power(const Pupil& pupil, const FrequencyGrid& grid, const Exec& exec) {
+    Image<float> power = far_field_power(pupil.aperture, grid, {}, exec);
+    if (!pupil.coverage) return power;
+    std::vector<float> gain;
+    for (int x = 0; x < grid.width; ++x)
+        gain.push_back(static_cast<float>(coverage_gain(grid.first_u + x * grid.step_u)));
+    parallel_blocks(static_cast<std::size_t>(grid.height), 64, exec, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            const float row_gain = static_cast<float>(coverage_gain(grid.first_v + y * grid.step_v));
+            float* row = power.row(y);
+            for (int x = 0; x < grid.width; ++x)
+                row[x] *= row_gain * gain[static_cast<std::size_t>(x)];
+        }
+    });
+    return power;
 }
 
 /// Wavelengths that the kernel needs. A pixel's light passes fringes as the pattern scales past it, but none
@@ -83,8 +101,7 @@ int wavelength_count(const Aperture& aperture, const PsfParams& params, double t
 }
 
 /// Side of the cells that sample the power, in cycles per texel: half a fringe of the aperture's extent, or a
-/// share of a pixel where that is less. Masks get a power of two of cycles, which fast Fourier transforms
-/// serve.
+/// share of a pixel where that is less; a power of two, which fast Fourier transforms serve.
 double cell_for(const Pupil& pupil, double pixel, double tolerance) {
     const OpenExtent extent = open_extent(pupil.aperture.mask.view());
     const double fringe = 1.0 / std::max(extent.width, extent.height);
@@ -92,7 +109,6 @@ double cell_for(const Pupil& pupil, double pixel, double tolerance) {
     const double finer = std::sqrt(0.01 / tolerance);
     const double share = std::max(pixel / 8, std::min(pixel / 4, fringe / 8)) / std::max(1.0, finer);
     const double most = std::min(fringe / 2, share);
-    if (pupil.far_field.method == FarFieldMethod::polygon) return most;
     double cell = 1;
     while (cell > most || cell * std::max(pupil.aperture.mask.width, pupil.aperture.mask.height) > 1)
         cell /= 2;
@@ -145,19 +161,16 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
     for (const SpectralSample& sample : samples)
         lights.push_back(
             {cycles_per_pixel(params, sample.wavelength_nm) / texels, sample.xyz * (1 / pupil.power)});
-    Image<Vec3d> xyz = integrate_over_pixels(
-        [&](const FrequencyGrid& grid) {
-            return far_field_power(pupil.aperture, grid, pupil.far_field, exec);
-        },
-        cell, params.radius_px, lights, exec);
+    Image<Vec3d> xyz =
+        integrate_over_pixels([&](const FrequencyGrid& grid) { return pupil_power(pupil, grid, exec); }, cell,
+                              params.radius_px, lights, exec);
 
-    FarFieldReport plan = plan_far_field(pupil.aperture, centred_grid(64, 64, cell), pupil.far_field);
     Psf psf;
     psf.captured = sum_of(xyz).y;
     psf.wavelengths = static_cast<int>(samples.size());
     psf.cycles_per_px = reference_cycles;
     psf.highest_cycles_per_texel = highest * diameter / texels;
-    psf.method = plan.method;
+    psf.method = plan_far_field(pupil.aperture, centred_grid(64, 64, cell), {}).method;
     psf.frequencies = pixel_integral_samples(cell, params.radius_px, lights);
     psf.kernel = balanced_kernel(std::move(xyz), params.light);
     return psf;

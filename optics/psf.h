@@ -44,17 +44,18 @@ struct Psf {
     double cycles_per_px =
         0;  ///< width of a pixel at 550 nm, in cycles per aperture diameter: pixel / (lambda N)
     /// Highest frequency at the kernel's edge, of the shortest wavelength. A mask says little of its aperture
-    /// beyond 0.25 (steps of its edges begin to show as false streaks along its axes) and nothing beyond 0.5;
-    /// where the outline is known, it is used instead or the mask made finer, and this is about what was
-    /// used.
+    /// beyond 0.25 (steps of its edges begin to show as false streaks along its axes) and nothing beyond 0.5.
+    /// Where the outline is known, a mask as fine as needed (up to 4096 texels) is made of it, and this is
+    /// about that one.
     double highest_cycles_per_texel = 0;
     FarFieldMethod method = FarFieldMethod::automatic;  ///< what computed the far field
     std::int64_t frequencies = 0;                       ///< at which it was computed
 };
 
-/// The aperture's mask spans the entrance pupil's diameter, focal_length / f_number, with its width. A pixel
-/// gathers the light on its whole square, of all wavelengths (see optics/pixel_integrals.h). Throws
-/// UsageError for parameters out of range, InputError for an aperture that lets nothing through.
+/// An outline, where there is one, must be that of the mask. The mask spans the entrance pupil's diameter,
+/// focal_length / f_number, with its width. A pixel gathers the light on its whole square, of all wavelengths
+/// (see optics/pixel_integrals.h). Throws UsageError for parameters out of range, LimitError for far too many
+/// frequencies, InputError for an aperture that lets nothing through.
 Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec);
 
 /// The coloured far field alone: pixel (x, y) shows frequency grid(x, y) at reference_nm, all wavelengths
