@@ -1,43 +1,29 @@
 #include "optics/mask_changes.h"
 
 #include <algorithm>
-#include <cstring>
+
+#include "optics/row_runs.h"
 
 namespace obscura {
 
-namespace {
-
-constexpr int span = 32;
-
-/// First x >= from, x <= width, that differs from its left neighbour; width where none does. Long runs are
-/// compared in spans.
-int next_change(const float* row, int from, int width) {
-    int x = from;
-    while (x + span <= width && std::memcmp(row + x, row + x - 1, span * sizeof(float)) == 0)
-        x += span;
-    while (x < width && row[x] == row[x - 1])
-        ++x;
-    return x;
-}
-
-void append_row(const float* row, int width, LineChanges& changes) {
-    double before = 0;
-    for (int x = 0; x <= width; x = x < width ? next_change(row, x + 1, width) : width + 1) {
-        const double here = x < width ? static_cast<double>(row[x]) : 0;
-        if (here == before) continue;
-        changes.edge.push_back(x);
-        changes.weight.push_back(here - before);
-        before = here;
-    }
-    changes.close_line();
-}
-
-}  // namespace
-
 LineChanges row_changes(ImageView<const float> mask) {
+    const RowRuns runs = row_runs(mask, best_isa());
     LineChanges changes;
-    for (int y = 0; y < mask.height; ++y)
-        append_row(mask.row(y), mask.width, changes);
+    for (std::size_t y = 0; y + 1 < runs.first.size(); ++y) {
+        const auto begin = static_cast<std::size_t>(runs.first[y]),
+                   end = static_cast<std::size_t>(runs.first[y + 1]);
+        for (std::size_t r = begin; r < end; ++r) {
+            const double weight = static_cast<double>(runs.weight[r]);
+            // Where grey runs touch, one change takes the place of two.
+            const bool touches = r > begin && runs.end[r - 1] == runs.begin[r];
+            if (touches)
+                changes.weight.back() += weight;
+            else
+                changes.add(runs.begin[r], weight);
+            changes.add(runs.end[r], -weight);
+        }
+        changes.close_line();
+    }
     return changes;
 }
 

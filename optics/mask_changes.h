@@ -16,6 +16,10 @@ struct LineChanges {
     std::vector<std::int32_t> first{0}, edge;
     std::vector<double> weight;
     int lines() const { return static_cast<int>(first.size()) - 1; }
+    void add(std::int32_t at, double rise) {
+        edge.push_back(at);
+        weight.push_back(rise);
+    }
     void close_line() { first.push_back(static_cast<std::int32_t>(edge.size())); }
 };
 
