@@ -6,6 +6,7 @@
 
 #include "optics/far_field.h"
 #include "optics/quads.h"
+#include "optics/separable_terms.h"
 
 namespace obscura {
 
@@ -17,5 +18,10 @@ double far_field_levels_cost_ns(const QuadList& quads, const FrequencyGrid& grid
 double far_field_polygon_cost_ns(const Outline& outline, const FrequencyGrid& grid);
 /// Decomposes the mask to count its distinct columns (about a nanosecond a texel).
 double far_field_edges_cost_ns(ImageView<const float> mask, const FrequencyGrid& grid);
+
+/// A whole field of a shape with few runs, by far_field_runs(): what an update competes with.
+double far_field_refresh_cost_ns(const FrequencyGrid& grid);
+/// Adding the terms of a difference of masks to a field.
+double far_field_update_cost_ns(const SeparableTerms& difference, const FrequencyGrid& grid);
 
 }  // namespace obscura
