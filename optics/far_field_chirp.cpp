@@ -22,6 +22,7 @@
 #include "optics/chirp.h"
 #include "optics/phasor.h"
 #include "optics/row_runs.h"
+#include "optics/run_sums.h"
 
 namespace obscura {
 namespace {
@@ -86,23 +87,59 @@ ChirpTransform chirp_transform(int rows, const FrequencyGrid& grid) {
     return t;
 }
 
-/// Runs with their ends relative to the middle, as intervals.
-struct RowTerms {
+/// The sums over a row's runs, for sixteen columns of frequencies. Where rows have few runs, each is
+/// transformed by itself; where they have many, the interval from the middle to every edge is, once, and a
+/// run is a difference of two.
+struct RowSums {
     RowRuns runs;
+    bool tabulated = false;
+    std::vector<std::int32_t> begin;  ///< of intervals; by row, or one interval per edge
     std::vector<double> x0, x1;
+    std::vector<float> weight;
     BoxTerms terms() const {
-        return {runs.first.data(), x0.data(), x1.data(), runs.weight.data(),
-                static_cast<int>(runs.first.size()) - 1};
+        return {begin.data(), x0.data(), x1.data(), weight.data(), static_cast<int>(begin.size()) - 1};
     }
 };
 
-RowTerms row_terms(ImageView<const float> mask, Isa isa) {
-    RowTerms rows{row_runs(mask, isa), {}, {}};
-    for (std::size_t r = 0; r < rows.runs.begin.size(); ++r) {
-        rows.x0.push_back(rows.runs.begin[r] - mask.width / 2.0);
-        rows.x1.push_back(rows.runs.end[r] - mask.width / 2.0);
+RowSums row_sums(ImageView<const float> mask, Isa isa) {
+    // A transform of an interval costs about as much as this many differences.
+    constexpr std::size_t runs_per_transform = 8;
+    RowSums sums{row_runs(mask, isa), false, {}, {}, {}, {}};
+    const double middle = mask.width / 2.0;
+    const std::size_t edges = static_cast<std::size_t>(mask.width) + 1, runs = sums.runs.begin.size();
+    sums.tabulated = edges + runs / runs_per_transform < runs;
+    if (sums.tabulated) {
+        for (int x = 0; x <= mask.width; ++x) {
+            sums.begin.push_back(x);
+            sums.x0.push_back(0);
+            sums.x1.push_back(x - middle);
+            sums.weight.push_back(-1);  // run_sums16 subtracts ends from beginnings
+        }
+        sums.begin.push_back(mask.width + 1);
+        return sums;
     }
-    return rows;
+    sums.begin = sums.runs.first;
+    sums.weight = sums.runs.weight;
+    for (std::size_t r = 0; r < runs; ++r) {
+        sums.x0.push_back(sums.runs.begin[r] - middle);
+        sums.x1.push_back(sums.runs.end[r] - middle);
+    }
+    return sums;
+}
+
+/// Sixteen columns from `column` on: element 16 y + lane.
+void sum_columns(const RowSums& sums, const FrequencyRamp& ramp, int column, Isa isa, Buffer<float>& re,
+                 Buffer<float>& im) {
+    const BoxTerms terms = sums.terms();
+    if (!sums.tabulated) {
+        OBSCURA_DISPATCH(isa, box_panel, ramp, column, terms, re.data(), im.data());
+        return;
+    }
+    Buffer<float> table_re(std::size_t{16} * static_cast<std::size_t>(terms.count)),
+        table_im(table_re.size());
+    OBSCURA_DISPATCH(isa, box_panel, ramp, column, terms, table_re.data(), table_im.data());
+    OBSCURA_DISPATCH(isa, run_sums16, sums.runs.table(), table_re.data(), re.data());
+    OBSCURA_DISPATCH(isa, run_sums16, sums.runs.table(), table_im.data(), im.data());
 }
 
 }  // namespace
@@ -127,15 +164,14 @@ int chirp_log2_length(int mask_height, int grid_height) {
 void far_field_chirp(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
                      const Exec& exec) {
     const ChirpTransform t = chirp_transform(mask.height, grid);
-    const RowTerms rows = row_terms(mask, exec.isa);
-    const BoxTerms terms = rows.terms();
+    const RowSums sums = row_sums(mask, exec.isa);
     const FrequencyRamp ramp{grid.first_u, grid.step_u, grid.width};
     const std::size_t used = std::size_t{16} * static_cast<std::size_t>(mask.height);
     const std::size_t length = std::size_t{16} * static_cast<std::size_t>(t.plan.length());
     parallel_for(static_cast<std::size_t>((grid.width + 15) / 16), exec, [&](std::size_t group) {
         Buffer<float> row_re(used), row_im(used), re(length), im(length);
         const int column = 16 * static_cast<int>(group), lanes = std::min(16, grid.width - column);
-        OBSCURA_DISPATCH(exec.isa, box_panel, ramp, column, terms, row_re.data(), row_im.data());
+        sum_columns(sums, ramp, column, exec.isa, row_re, row_im);
         for (const Tile& tile : t.tiles) {
             std::fill(std::copy(row_re.begin(), row_re.end(), re.begin()), re.end(), 0.0f);
             std::fill(std::copy(row_im.begin(), row_im.end(), im.begin()), im.end(), 0.0f);
