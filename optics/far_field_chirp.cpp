@@ -161,6 +161,17 @@ int chirp_log2_length(int mask_height, int grid_height) {
     return best;
 }
 
+bool natural_is_cheaper(const NaturalGrid& natural, int mask_height, const FrequencyGrid& grid) {
+    const double period = natural.v.period();
+    const double groups = std::min(natural.u.period() / 32.0, grid.width / 16.0) + 1;
+    const int log2 = chirp_log2_length(mask_height, grid.height);
+    const double length = 1 << log2, tiles = std::ceil(grid.height / (length - mask_height + 1));
+    // Products with the chirp weigh about as much as two passes; tables of the period, as several transforms.
+    const double tables = 4.0 * (period + natural.u.period());
+    return groups * period * (natural.v.log2_period + 1) + tables <
+           std::ceil(grid.width / 16.0) * tiles * length * 2 * (log2 + 2);
+}
+
 void far_field_chirp(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
                      const Exec& exec) {
     const ChirpTransform t = chirp_transform(mask.height, grid);

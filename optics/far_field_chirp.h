@@ -5,6 +5,7 @@
 #include "core/isa.h"
 #include "optics/far_field.h"
 #include "optics/field.h"
+#include "optics/natural_grid.h"
 
 namespace obscura {
 
@@ -14,5 +15,9 @@ void far_field_chirp(ImageView<const float> mask, const FrequencyGrid& grid, con
 
 /// log2 of the transforms it would use: the cheapest cut of the grid's rows into tiles.
 int chirp_log2_length(int mask_height, int grid_height);
+
+/// Of a natural grid, whether the transforms over its whole period cost less than those of the window: true
+/// but for small windows of very fine grids.
+bool natural_is_cheaper(const NaturalGrid& natural, int mask_height, const FrequencyGrid& grid);
 
 }  // namespace obscura

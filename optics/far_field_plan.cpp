@@ -1,19 +1,174 @@
-// Which method is cheapest: a fixed model, so that every machine makes the same choice.
+// Which method is cheapest: a fixed model of costs, fitted once to measurements on one thread with AVX-512,
+// so that every machine makes the same choice (and so gives the same bits).
+//
+// Compared are the three that were ever the fastest in the bench, over all apertures, sizes and windows:
+// runs, raster_fft and edges. Quads, singly, by shape, as one product or by levels, always lose to one of
+// them.
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/error.h"
 #include "optics/far_field.h"
+#include "optics/far_field_chirp.h"
+#include "optics/far_field_costs.h"
 #include "optics/far_field_methods.h"
 #include "optics/natural_grid.h"
+#include "optics/row_runs.h"
 
 namespace obscura {
+namespace {
+
+// Nanoseconds.
+constexpr double per_fft_sample = 0.95;  // sixteen sequences, times log2 of the length
+constexpr double per_run_end = 3;        // sixteen frequencies
+constexpr double per_phase = 2;          // sixteen frequencies of one edge
+constexpr double per_transform = 26;     // of one interval, sixteen frequencies
+constexpr double per_pixel = 0.3;        // stored
+constexpr double per_texel = 0.1;        // searched for runs
+constexpr double per_table_entry = 60;   // of natural grids, and of the chirp
+constexpr double never = std::numeric_limits<double>::infinity();
+
+/// What decides; one pass over the mask.
+struct MaskFacts {
+    int width = 0, height = 0;
+    double runs = 0;
+    bool mirrored = false;
+    double columns = 0, rows = 0;  ///< at most so many of them differ from their neighbours
+
+    double texels() const { return static_cast<double>(width) * height; }
+};
+
+MaskFacts facts_of(ImageView<const float> mask) {
+    const RowRuns found = row_runs(mask, best_isa());
+    MaskFacts facts{mask.width, mask.height, static_cast<double>(found.begin.size()), false, 0, 0};
+    facts.mirrored = mask.width % 2 == 0 && same_left_and_right(found, mask.width);
+    std::vector<std::uint8_t> changes(static_cast<std::size_t>(mask.width) + 1);
+    for (const auto* ends : {&found.begin, &found.end}) {
+        for (const std::int32_t x : *ends)
+            changes[static_cast<std::size_t>(x)] = 1;
+    }
+    facts.columns = static_cast<double>(std::count(changes.begin(), changes.end(), 1));
+    for (int y = 0; y < mask.height; ++y) {
+        const bool repeats = y > 0 && std::equal(mask.row(y), mask.row(y) + mask.width, mask.row(y - 1));
+        if (!repeats) ++facts.rows;
+    }
+    return facts;
+}
+
+double fft_ns(int log2_length) {
+    return per_fft_sample * std::max(1, log2_length) * (1 << log2_length);
+}
+
+double pixels_of(const FrequencyGrid& grid) {
+    return static_cast<double>(grid.width) * grid.height;
+}
+
+/// Groups of sixteen columns of one period that the grid shows.
+double groups_of(const NaturalAxis& u) {
+    return std::max(1.0, std::min(u.period() / 32.0, u.count / 16.0 + 1));
+}
+
+double natural_runs_ns(const MaskFacts& m, const NaturalGrid& grid) {
+    const double groups = groups_of(grid.u), parts = m.mirrored ? 1 : 2;
+    return per_table_entry * (grid.u.period() + grid.v.period()) +
+           groups * parts * (0.5 * fft_ns(grid.v.log2_period) + per_run_end * m.runs) +
+           groups * per_phase * parts * m.width;
+}
+
+double raster_fft_ns(const MaskFacts& m, const NaturalGrid& grid) {
+    const double groups = groups_of(grid.u);
+    // Rows are transposed on their way in and out.
+    constexpr double per_transposed = 0.6;
+    return per_table_entry * (grid.u.period() + grid.v.period()) +
+           std::ceil(m.height / 32.0) * fft_ns(grid.u.log2_period) + groups * fft_ns(grid.v.log2_period) +
+           per_transposed * grid.u.period() * m.height;
+}
+
+double chirp_ns(const MaskFacts& m, const FrequencyGrid& grid) {
+    const double groups = std::ceil(grid.width / 16.0);
+    const int log2 = chirp_log2_length(m.height, grid.height);
+    const double length = 1 << log2;
+    const double tiles = std::ceil(grid.height / (length - m.height + 1));
+    const double sums = std::min(per_transform * m.runs, per_transform * m.width + 2 * per_run_end * m.runs);
+    constexpr double per_product = 2.5;  // of sixteen sequences with the chirp and its spectrum
+    return per_table_entry * (length + tiles * m.height + grid.height) +
+           groups * (sums + tiles * (2 * fft_ns(log2) + per_product * length));
+}
+
+/// From an upper bound of the number of terms, before they are counted.
+double edges_ns(const MaskFacts& m, const FrequencyGrid& grid) {
+    const double terms = std::min(m.columns, m.rows) * (m.mirrored ? 0.5 : 1);
+    const double per_product = m.mirrored ? 0.05 : 0.1;  // of one term and pixel
+    const double intervals = m.columns + terms * m.runs / m.height;
+    return m.texels() + per_product * terms * pixels_of(grid) + intervals * (grid.width + grid.height);
+}
+
+struct Choice {
+    FarFieldMethod method;
+    double ns;
+};
+
+std::string reason_of(const Choice& best, const Choice& other, const MaskFacts& m, bool natural) {
+    const std::string rest =
+        other.ns == never
+            ? std::string("nothing else serves")
+            : fmt::format("{} about {:.3g} ms", far_field_method_name(other.method), other.ns * 1e-6);
+    return fmt::format("{}: about {:.3g} ms on one thread ({}); {} runs in {} rows, {} grid",
+                       far_field_method_name(best.method), best.ns * 1e-6, rest, m.runs, m.height,
+                       natural ? "natural" : "free");
+}
+
+/// Throws when a method that was asked for cannot serve.
+void check_method(const Aperture& aperture, bool natural, const FarFieldParams& params) {
+    const FarFieldMethod method = params.method;
+    const auto refuse = [&](const char* why) {
+        throw InputError("far field",
+                         fmt::format("method {} cannot serve: {}", far_field_method_name(method), why));
+    };
+    if (!natural && (method == FarFieldMethod::levels || method == FarFieldMethod::raster_fft))
+        refuse("the grid's step is not 1 / a power of two that is at least the mask's side");
+    if (method == FarFieldMethod::polygon && !aperture.outline.disjoint)
+        refuse("no outline of disjoint loops is known of this aperture");
+    if (params.cull < 0 || !std::isfinite(params.cull))
+        throw InputError("far field", "cull must be 0 or more");
+    if (params.cull > 0 && method != FarFieldMethod::automatic && method != FarFieldMethod::edges)
+        refuse("only the method edges can cull");
+}
+
+}  // namespace
 
 FarFieldReport plan_far_field(const Aperture& aperture, const FrequencyGrid& grid,
                               const FarFieldParams& params) {
+    const auto mask = aperture.mask.view();
+    const auto natural = natural_grid(mask.width, mask.height, grid);
+    check_method(aperture, natural.has_value(), params);
     FarFieldReport report;
     report.method = params.method;
-    if (params.method == FarFieldMethod::automatic) {
-        const bool natural = natural_grid(aperture.mask.width, aperture.mask.height, grid).has_value();
-        report.method = natural ? FarFieldMethod::runs : FarFieldMethod::edges;
+    if (params.method != FarFieldMethod::automatic) {
+        report.reason = fmt::format("{}: asked for", far_field_method_name(params.method));
+        return report;
     }
+    const MaskFacts m = facts_of(mask);
+    const bool whole = natural && natural_is_cheaper(*natural, m.height, grid);
+    const double shared = per_pixel * pixels_of(grid) + per_texel * m.texels();
+    std::vector<Choice> choices{
+        {FarFieldMethod::runs, shared + (whole ? natural_runs_ns(m, *natural) : chirp_ns(m, grid))},
+        {FarFieldMethod::raster_fft, natural ? shared + raster_fft_ns(m, *natural) : never},
+        {FarFieldMethod::edges, shared + edges_ns(m, grid)}};
+    std::sort(choices.begin(), choices.end(), [](const Choice& a, const Choice& b) { return a.ns < b.ns; });
+    if (params.cull > 0) {
+        const auto edges = std::find_if(choices.begin(), choices.end(),
+                                        [](const Choice& c) { return c.method == FarFieldMethod::edges; });
+        std::rotate(choices.begin(), edges, edges + 1);
+    }
+    report.method = choices[0].method;
+    report.cost_ms = choices[0].ns * 1e-6;
+    report.reason = reason_of(choices[0], choices[1], m, natural.has_value());
     return report;
 }
 

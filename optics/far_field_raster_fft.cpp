@@ -53,7 +53,7 @@ void far_field_raster_fft(ImageView<const float> mask, const NaturalTransform& t
     const NaturalTransform& t = transform;
     CHECK(mask.width == t.width && mask.height == t.height);
     const RowSpectra spectra = transform_rows(mask, t, exec);
-    const int groups = column_groups(t.grid.u);
+    const int groups = static_cast<int>(t.used_groups.size());
     const int batch = groups_at_once(groups, t.v_plan.length(), exec);
     parallel_for(static_cast<std::size_t>((groups + batch - 1) / batch), exec, [&](std::size_t item) {
         const std::size_t used = std::size_t{16} * static_cast<std::size_t>(mask.height);
@@ -61,7 +61,8 @@ void far_field_raster_fft(ImageView<const float> mask, const NaturalTransform& t
         Buffer<float> re(length * static_cast<std::size_t>(batch)), im(re.size());
         std::vector<SpectrumBlock> blocks;
         const int first = static_cast<int>(item) * batch;
-        for (int group = first; group < std::min(first + batch, groups); ++group) {
+        for (int i = first; i < std::min(first + batch, groups); ++i) {
+            const int group = t.used_groups[static_cast<std::size_t>(i)];
             float* group_re = re.data() + length * blocks.size();
             float* group_im = im.data() + length * blocks.size();
             const std::size_t from = used * static_cast<std::size_t>(group);

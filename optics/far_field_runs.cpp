@@ -14,6 +14,7 @@
 // middle are real too, and two groups of columns share one complex transform.
 
 #include <algorithm>
+#include <optional>
 
 #include "core/buffer.h"
 #include "core/parallel.h"
@@ -104,15 +105,15 @@ SpectrumBlock complex_group(const RunsOfMask& m, int group, Isa isa, Scratch& s,
 }
 
 /// Spectra of two times sixteen columns of real sums.
-SpectrumBlock mirrored_pair(const RunsOfMask& m, int group, Isa isa, Scratch& s, float* re, float* im) {
+SpectrumBlock mirrored_pair(const RunsOfMask& m, int group, std::optional<int> partner, Isa isa, Scratch& s,
+                            float* re, float* im) {
     const NaturalTransform& t = m.transform;
-    const bool partner = group + 1 < column_groups(t.grid.u);
     fill_table(m, group, isa, s);
     sum_rows(m, s.table_im.data(), isa, re);
     for (int y = 0; group == 0 && y < t.height; ++y)
         re[16 * y] = row_sum(m.runs, y, false);
     if (partner) {
-        fill_table(m, group + 1, isa, s);
+        fill_table(m, *partner, isa, s);
         sum_rows(m, s.table_im.data(), isa, im);
     } else {
         std::fill_n(im, 16 * t.v_plan.length(), 0.0f);
@@ -122,8 +123,9 @@ SpectrumBlock mirrored_pair(const RunsOfMask& m, int group, Isa isa, Scratch& s,
     const std::vector<ColumnStrip>& strips = t.mirror_strips[own].strips;
     SpectrumBlock block{re, im, strips.data(), static_cast<int>(strips.size()), nullptr, 0};
     if (partner) {
-        block.partner_strips = t.mirror_strips[own + 1].strips.data();
-        block.partner_count = static_cast<int>(t.mirror_strips[own + 1].strips.size());
+        const std::vector<ColumnStrip>& others = t.mirror_strips[static_cast<std::size_t>(*partner)].strips;
+        block.partner_strips = others.data();
+        block.partner_count = static_cast<int>(others.size());
     }
     return block;
 }
@@ -131,12 +133,18 @@ SpectrumBlock mirrored_pair(const RunsOfMask& m, int group, Isa isa, Scratch& s,
 /// Groups (or pairs) first to last - 1: transformed one by one, written together.
 void column_batch(const RunsOfMask& m, int first, int last, Isa isa, Scratch& s, const FieldTarget& target) {
     const NaturalTransform& t = m.transform;
+    const std::vector<int>& groups = t.used_groups;
     std::vector<SpectrumBlock> blocks;
     for (int i = first; i < last; ++i) {
         const std::ptrdiff_t at = std::ptrdiff_t{16} * t.v_plan.length() * (i - first);
         float *re = s.re.data() + at, *im = s.im.data() + at;
-        blocks.push_back(m.mirrored ? mirrored_pair(m, 2 * i, isa, s, re, im)
-                                    : complex_group(m, i, isa, s, re, im));
+        const std::size_t item = static_cast<std::size_t>(i), pair = 2 * item;
+        if (m.mirrored) {
+            const auto partner = pair + 1 < groups.size() ? std::optional(groups[pair + 1]) : std::nullopt;
+            blocks.push_back(mirrored_pair(m, groups[pair], partner, isa, s, re, im));
+        } else {
+            blocks.push_back(complex_group(m, groups[item], isa, s, re, im));
+        }
     }
     const int count = static_cast<int>(blocks.size());
     if (m.mirrored) {
@@ -155,7 +163,7 @@ void far_field_runs(ImageView<const float> mask, const NaturalTransform& transfo
     const NaturalAxis& u = transform.grid.u;
     RunsOfMask m{transform, row_runs(mask, exec.isa), false};
     m.mirrored = mask.width % 2 == 0 && u.log2_period > 0 && same_left_and_right(m.runs, mask.width);
-    const int groups = column_groups(u);
+    const int groups = static_cast<int>(transform.used_groups.size());
     const int items = m.mirrored ? (groups + 1) / 2 : groups;
     const int batch = groups_at_once(items, transform.v_plan.length(), exec);
     parallel_for(static_cast<std::size_t>((items + batch - 1) / batch), exec, [&](std::size_t b) {
@@ -168,7 +176,8 @@ void far_field_runs(ImageView<const float> mask, const NaturalTransform& transfo
 
 void far_field_runs(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
                     const Exec& exec) {
-    if (const auto natural = natural_grid(mask.width, mask.height, grid))
+    const auto natural = natural_grid(mask.width, mask.height, grid);
+    if (natural && natural_is_cheaper(*natural, mask.height, grid))
         far_field_runs(mask, natural_transform(mask.width, mask.height, *natural), target, exec);
     else
         far_field_chirp(mask, grid, target, exec);

@@ -36,6 +36,8 @@ NaturalTransform natural_transform(int width, int height, const NaturalGrid& gri
         t.texel_strips.push_back(complex_strips(grid.u, group, t.u_texel));
         t.edge_strips.push_back(complex_strips(grid.u, group, u_edge));
         t.mirror_strips.push_back(mirror_strips(grid.u, group));
+        // The first group also holds the columns 0 and M / 2, which are no strips.
+        if (group == 0 || !t.mirror_strips.back().strips.empty()) t.used_groups.push_back(group);
     }
     return t;
 }

@@ -22,6 +22,9 @@ struct NaturalTransform {
     /// Of every group of columns: for sums over texels, over edges, and real sums about the middle.
     std::vector<GroupStrips> texel_strips, edge_strips, mirror_strips;
 
+    /// Groups that the grid shows anything of, ascending: all of them, or a window's.
+    std::vector<int> used_groups;
+
     SpectrumRows rows() const { return spectrum_rows(grid.v, v_plan, v_texel); }
 };
 

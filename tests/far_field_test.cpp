@@ -22,6 +22,7 @@ std::vector<FrequencyGrid> natural_grids(int period) {
             centred_grid(37, 29, step, 5 * step, -11 * step),
             {3 * period, 5, -1.5, 0.25, step, step},
             {20, 3 * period, 7 * step, -2, step, step},
+            centred_grid(9, 11, step / 64, step / 4, 0),
             {25, 31, -12 * step / 2, -15 * step / 4, step / 2, step / 4}};
 }
 
@@ -81,6 +82,44 @@ TEST(FarField, OtherGridsAgreeWithTheDefinition) {
             }
         }
     }
+}
+
+TEST(FarField, ThePlannerKnowsRunsNoiseAndBoxes) {
+    const int size = 256;
+    const FrequencyGrid natural = half_grid(2 * size, 2 * size, 1.0 / size);
+    const FrequencyGrid zoomed = centred_grid(512, 512, 0.23 / size);
+    for (const NamedMask& m : hard_masks(2 * size)) {
+        const Aperture aperture = reduce(m.aperture, 1, true);
+        const auto expect = [&](const FrequencyGrid& grid, FarFieldMethod method) {
+            const FarFieldReport plan = plan_far_field(aperture, grid, {});
+            EXPECT_EQ(plan.method, method) << m.name << ": " << plan.reason;
+            EXPECT_GT(plan.cost_ms, 0);
+            EXPECT_EQ(plan.reason.find(far_field_method_name(method)), 0u) << plan.reason;
+        };
+        if (m.name == "circle" || m.name == "iris" || m.name == "whirl")
+            expect(natural, FarFieldMethod::runs);
+        if (m.name == "noise") expect(natural, FarFieldMethod::raster_fft);
+        if (m.name == "whirl" || m.name == "noise") expect(zoomed, FarFieldMethod::runs);
+        if (m.name == "box" || m.name == "full") expect(zoomed, FarFieldMethod::edges);
+    }
+}
+
+TEST(FarField, MethodsThatCannotServeAreRefused) {
+    const Aperture aperture = hard_masks(32)[5].aperture;
+    FarFieldParams params;
+    params.method = FarFieldMethod::raster_fft;
+    EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.01), params, {}), InputError);
+    EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 1.0 / 16), params, {}), InputError);
+    params.method = FarFieldMethod::levels;
+    EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.01), params, {}), InputError);
+    params.method = FarFieldMethod::polygon;
+    EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.01), params, {}), InputError);
+    params.method = FarFieldMethod::runs;
+    params.cull = 1e-4;
+    EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.01), params, {}), InputError);
+    params.method = FarFieldMethod::automatic;
+    params.cull = -1;
+    EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.01), params, {}), InputError);
 }
 
 TEST(FarField, BitsDoNotDependOnThreadsOrInstructionSet) {
