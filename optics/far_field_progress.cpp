@@ -12,10 +12,10 @@
 
 #include "optics/far_field_progress.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "optics/far_field_costs.h"
 #include "optics/separable_field.h"
