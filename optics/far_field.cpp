@@ -22,16 +22,30 @@ FarFieldReport compute(const Aperture& aperture, const FrequencyGrid& grid, cons
     FarFieldReport report = plan_far_field(aperture, grid, params);
     const auto mask = aperture.mask.view();
     switch (report.method) {
-        default:
-            throw InputError("far field", "this method is not there");
+        case FarFieldMethod::automatic:
+        case FarFieldMethod::direct:
+            far_field_direct(quads_of(mask), grid, target, exec);
+            break;
+        case FarFieldMethod::shift:
+            far_field_shift(quads_of(mask), grid, target, exec);
+            break;
+        case FarFieldMethod::gemm:
+            far_field_gemm(quads_of(mask), grid, target, exec);
+            break;
         case FarFieldMethod::edges:
             far_field_edges(mask, grid, params.cull, target, exec, &report);
+            break;
+        case FarFieldMethod::levels:
+            far_field_levels(quads_of(mask), grid, target, exec);
             break;
         case FarFieldMethod::runs:
             far_field_runs(mask, grid, target, exec);
             break;
         case FarFieldMethod::raster_fft:
             far_field_raster_fft(mask, grid, target, exec);
+            break;
+        case FarFieldMethod::polygon:
+            far_field_polygon(aperture.outline, mask.width, mask.height, grid, target, exec);
             break;
     }
     return report;
