@@ -126,18 +126,27 @@ void compute(const Aperture& aperture, const PlaneGrid& grid, const NearFieldPar
     const NearFieldCase c = near_field_case(aperture, grid, params, coarse);
     NearFieldReport plan = plan_near_field_case(c, params.method);
     switch (plan.method) {
+        case NearFieldMethod::direct:
+        case NearFieldMethod::two_pass: {
+            const QuadList quads = quads_of(c.mask);
+            plan.quads = static_cast<std::int64_t>(quads.size());
+            if (plan.method == NearFieldMethod::direct)
+                near_field_direct(c, quads, target, exec);
+            else
+                near_field_two_pass(c, quads, target, exec);
+            break;
+        }
         case NearFieldMethod::edges:
             near_field_edges(c, params.cull, target, exec, plan);
-            break;
-        case NearFieldMethod::fft:
-            near_field_fft(c, target, exec);
             break;
         case NearFieldMethod::hybrid:
             near_field_hybrid(c, target, exec);
             break;
-        default:
-            throw InputError(
-                "", fmt::format("near field by {}: not linked in yet", near_field_method_name(plan.method)));
+        case NearFieldMethod::fft:
+            near_field_fft(c, target, exec);
+            break;
+        case NearFieldMethod::automatic:
+            CHECK(false);
     }
     if (report != nullptr) *report = plan;
 }

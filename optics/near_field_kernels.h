@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/isa.h"
 #include "optics/field.h"
 
 namespace obscura {

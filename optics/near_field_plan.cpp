@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/num.h"
 #include "optics/mask_changes.h"
 #include "optics/near_field_convolve.h"
 #include "optics/near_field_methods.h"
@@ -116,7 +117,7 @@ double convolution_cost_ns(const PlaneAxis& axis, double columns) {
     const StepRatio ratio = *step_ratio(axis.step);
     const double kernels = std::min(ratio.q, axis.pixels);
     const double span = double{1} * axis.pixels * ratio.p / ratio.q;
-    const double transform = fft_ns * length * std::log2(length);
+    const double transform = fft_ns * length * num::log2(length);
     return kernels * (axis.texels + span) * integral_ns + plan_ns * length + transform +
            std::ceil(columns / 16) * ((1 + kernels) * transform + kernels * multiply_ns * length);
 }

@@ -17,7 +17,8 @@ namespace {
 
 using namespace near_field_oracle;
 
-constexpr NearFieldMethod all_methods[] = {NearFieldMethod::edges, NearFieldMethod::hybrid,
+constexpr NearFieldMethod all_methods[] = {NearFieldMethod::direct, NearFieldMethod::two_pass,
+                                           NearFieldMethod::edges, NearFieldMethod::hybrid,
                                            NearFieldMethod::fft};
 
 Aperture grey_blades(int width, int height) {
