@@ -19,8 +19,6 @@ double far_field_polygon_cost_ns(const Outline& outline, const FrequencyGrid& gr
 /// Decomposes the mask to count its distinct columns (about a nanosecond a texel).
 double far_field_edges_cost_ns(ImageView<const float> mask, const FrequencyGrid& grid);
 
-/// A whole field of a shape with few runs, by far_field_runs(): what an update competes with.
-double far_field_refresh_cost_ns(const FrequencyGrid& grid);
 /// Adding the terms of a difference of masks to a field.
 double far_field_update_cost_ns(const SeparableTerms& difference, const FrequencyGrid& grid);
 

@@ -37,7 +37,7 @@ void far_field_direct(const QuadList& quads, const FrequencyGrid& grid, const Fi
 }
 
 double far_field_direct_cost_ns(std::int64_t quads, const FrequencyGrid& grid) {
-    return 0.30 * static_cast<double>(quads) * grid.width * grid.height;
+    return 2.0 * static_cast<double>(quads) * grid.width * grid.height;
 }
 
 }  // namespace obscura

@@ -54,9 +54,7 @@ double absolute_area(const Image<float>& mask) {
     return sum;
 }
 
-void refresh(FarFieldProgress& progress, ImageView<const float> mask, double area, const Exec& exec) {
-    Aperture aperture;
-    aperture.mask = copy_of(mask);
+void refresh(FarFieldProgress& progress, Aperture&& aperture, double area, const Exec& exec) {
     const FrequencyGrid& grid = progress.grid;
     progress.field = {Image<float>(grid.width, grid.height), Image<float>(grid.width, grid.height)};
     far_field_into(aperture, grid, {},
@@ -67,10 +65,6 @@ void refresh(FarFieldProgress& progress, ImageView<const float> mask, double are
 }
 
 }  // namespace
-
-double far_field_refresh_cost_ns(const FrequencyGrid& grid) {
-    return 6.0 * grid.width * grid.height + 20000;
-}
 
 double far_field_update_cost_ns(const SeparableTerms& difference, const FrequencyGrid& grid) {
     return separable_cost_ns(difference, grid) + 1.0 * grid.width * grid.height;
@@ -104,8 +98,10 @@ ProgressReport update_far_field(FarFieldProgress& progress, ImageView<const floa
     const double area = open_area(mask);
     const FrequencyGrid& grid = progress.grid;
     Field& field = progress.field;
+    Aperture aperture;
+    aperture.mask = copy_of(mask);
     ProgressReport report;
-    report.refresh_ms = far_field_refresh_cost_ns(grid) * 1e-6;
+    report.refresh_ms = plan_far_field(aperture, grid, {}).cost_ms;
     if (progress.mask.width != mask.width || progress.mask.height != mask.height ||
         field.re.width != grid.width || field.re.height != grid.height) {
         report.refreshed = true;
@@ -123,11 +119,11 @@ ProgressReport update_far_field(FarFieldProgress& progress, ImageView<const floa
             params.add = true;
             const FieldTarget target{field.re.pixels.data(), field.im.pixels.data(), nullptr, grid.width};
             separable_field(terms, grid, params, target, exec);
-            progress.mask = copy_of(mask);
+            progress.mask = std::move(aperture.mask);
             progress.error_bound = bound;
         }
     }
-    if (report.refreshed) refresh(progress, mask, area, exec);
+    if (report.refreshed) refresh(progress, std::move(aperture), area, exec);
     report.error_bound = area > 0 ? progress.error_bound / area : 0;
     return report;
 }

@@ -106,7 +106,7 @@ double separable_cost_ns(const SeparableTerms& terms, const FrequencyGrid& grid)
                  intervals_y = static_cast<double>(terms.y.x0.size());
     const double pixels = static_cast<double>(grid.width) * grid.height;
     return 0.025 * products_per_term(terms) * terms.count() * rows * columns +
-           1.0 * (intervals_x * columns + intervals_y * rows) + 0.3 * pixels + 5000;
+           1.0 * (intervals_x * columns + intervals_y * rows) + 0.25 * pixels + 5000;
 }
 
 }  // namespace obscura
