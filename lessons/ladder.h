@@ -17,5 +17,6 @@ Image<Rgb8> lesson_5_mode_of_four(const Exec& exec);
 Image<Rgb8> lesson_6_tree(const Exec& exec);
 Image<Rgb8> lesson_7_recursion(const Exec& exec);
 Image<Rgb8> lesson_8_lookups(const Exec& exec);
+Image<Rgb8> lesson_9_quads(const Exec& exec);
 
 }  // namespace obscura

@@ -23,6 +23,7 @@
 #include "core/hash.h"
 #include "core/image_io.h"
 #include "hierarchy/build.h"
+#include "lessons/aperture_panels.h"
 #include "lessons/tree_scene.h"
 
 namespace obscura {
@@ -30,8 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "7c9c081cfe7aeee7",
-                            "da4e1855356c3fdd", "58e38df2aa3009e6", "bad0f240905ab4ef", "978e552047151592"};
+constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8",
+                            "7c9c081cfe7aeee7", "da4e1855356c3fdd", "58e38df2aa3009e6",
+                            "bad0f240905ab4ef", "978e552047151592", "1dd6abca9eac4735"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
@@ -135,6 +137,23 @@ TEST(Lessons, EachIsOneSourceFileOfLessThan150Lines) {
         EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 150) << name;
     }
     EXPECT_EQ(found, lessons().size());
+}
+
+/// Lesson 9: half of all quads are as small as a texel, twice the resolution costs twice the quads, and the
+/// small ones are signed: without the negative ones the mask is another.
+TEST(Lessons, LessonNinesQuadsLieAlongTheEdge) {
+    const QuadList quads = quads_of(binary_mask(ApertureKind::iris, 1024).view());
+    const QuadList smallest = quads_where(quads, [&](std::size_t k) { return level_side(quads, k) == 1; });
+    EXPECT_NEAR(static_cast<double>(smallest.size()) / static_cast<double>(quads.size()), 0.5, 0.05);
+    const QuadList half = quads_of(binary_mask(ApertureKind::iris, 256).view());
+    EXPECT_NEAR(static_cast<double>(quads.size()) / static_cast<double>(half.size()), 4.0, 1.0);
+
+    const Image<float> mask = binary_mask(ApertureKind::iris, 64);
+    const QuadList all = quads_of(mask.view());
+    EXPECT_EQ(mask_of(all).pixels, mask.pixels);
+    EXPECT_GT(count_negative(all), all.size() / 8);
+    EXPECT_NE(mask_of(quads_where(all, [&](std::size_t k) { return all.weight[k] > 0; })).pixels,
+              mask.pixels);
 }
 
 TEST(Lessons, AnUnknownNumberIsAUsageError) {

@@ -1,0 +1,30 @@
+#pragma once
+// Apertures of lessons 9 to 12, and their quads as pictures.
+
+#include <cstddef>
+#include <functional>
+
+#include "lessons/figure.h"
+#include "optics/aperture_shapes.h"
+#include "optics/quads.h"
+
+namespace obscura {
+
+/// A shape of 0.9 of the mask's width; texels are open where at least half of them is.
+Image<float> binary_mask(ApertureKind kind, int size);
+
+/// Side of the squares of the level that wrote quad k.
+int level_side(const QuadList& quads, std::size_t k);
+
+/// The quads k with keep(k), in their order.
+QuadList quads_where(const QuadList& quads, const std::function<bool(std::size_t k)>& keep);
+
+/// Negative weights: the sum is the mask only with them.
+std::size_t count_negative(const QuadList& quads);
+
+constexpr Rgb8 positive_quad = ink::blue, negative_quad = ink::red;
+
+/// Every quad by its sign, `texel` pixels to a texel, rimmed with paper from 4 pixels' side on.
+void draw_quads(Figure& f, Vec2d origin, double texel, const QuadList& quads);
+
+}  // namespace obscura
