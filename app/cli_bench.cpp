@@ -8,6 +8,7 @@
 #include "app/cli_commands.h"
 #include "app/cli_flags.h"
 #include "app/scene_schema.h"
+#include "bench/diffraction_bench.h"
 #include "bench/raster_bench.h"
 #include "bench/shadow_bench.h"
 #include "core/error.h"
@@ -22,23 +23,24 @@ int run_bench(const Arguments& arguments) {
     std::string name, out = options.out.string(), data, part;
     std::int64_t runs = options.runs, threads = 0;
     flags.positional("NAME", name,
-                     "What to measure: raster (light views, dual depths and a shaded frame) or "
-                     "shadows (dense and compressed maps against exact rays).");
+                     "What to measure: raster (light views, dual depths and a shaded frame), shadows (dense "
+                     "and compressed maps against exact rays) or diffraction (far and near fields).");
     flags.group("Measurement");
     flags.whole("--runs", "N", runs, 1, 1000, "Timed runs of each job after one to warm up.",
                 std::to_string(runs));
     flags.whole("-t,--threads", "N", threads, 1, 1024, "Measure with this many threads only.", "1 and 2");
-    flags.text("--scene", "TEXT", options.scene, "Only scenes whose name contains this.", "all");
+    flags.text("--scene", "TEXT", options.scene, "Only scenes (or apertures) whose name contains this.",
+               "all");
     flags.text("--data", "DIR", data,
-               "Folder of test data (meshes, cities); without it its scenes are left out.", "none");
+               "Folder of test data (meshes, cities, apertures); without it they are left out.", "none");
     flags.text("--part", "NAME", part, "shadows: times, accuracy or sizes alone.", "all");
     flags.on_off("--quick", options.quick, "Small pictures of a small scene: a check, not a measurement.");
     flags.group("Output");
     flags.text("-o,--output", "DIR", out, "Folder for tables and charts.", out);
     if (!flags.parse(arguments)) return 0;
-    if (name != "raster" && name != "shadows") {
+    if (name != "raster" && name != "shadows" && name != "diffraction") {
         throw UsageError(fmt::format("there is no bench '{}'{} (see 'obscura bench --help')", name,
-                                     hint(name, {"raster", "shadows"})));
+                                     hint(name, {"raster", "shadows", "diffraction"})));
     }
     if (!part.empty() && (name != "shadows" || (part != "times" && part != "accuracy" && part != "sizes")))
         throw UsageError(fmt::format("bench {} has no part '{}'", name, part));
@@ -51,6 +53,7 @@ int run_bench(const Arguments& arguments) {
         std::fflush(stdout);
     };
     if (name == "raster") return bench_raster(options);
+    if (name == "diffraction") return bench_diffraction(options);
     const bool all = part.empty();
     return bench_shadows(options,
                          {all || part == "times", all || part == "accuracy", all || part == "sizes"});

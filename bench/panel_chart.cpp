@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/diffraction_report.h"
 #include "bench/gnuplot.h"
 #include "bench/shadow_report.h"
 
@@ -42,21 +43,48 @@ std::string panel_plot(const std::vector<PanelLine>& lines, std::size_t i) {
     return data + plot + '\n';
 }
 
+/// One key for all panels, in rows under the titles: an empty plot of every line that some panel has.
+std::string key_strip(const PanelChart& chart, double bottom, double height) {
+    std::vector<std::string> names;
+    std::string plot;
+    for (const Panel& panel : chart.panels) {
+        for (const PanelLine& line : panel.lines) {
+            if (std::find(names.begin(), names.end(), line.method) != names.end()) continue;
+            names.push_back(line.method);
+            const MethodStyle style = method_style(line.method);
+            plot += fmt::format("{} NaN with linespoints lw 1.6 ps 0.8 pt {} lc rgb '{}' title {}",
+                                plot.empty() ? "plot [0:1] [0:1]" : ",", style.filled, style.color,
+                                gnuplot_text(line.method));
+        }
+    }
+    return fmt::format(
+        "unset logscale\nunset border\nunset tics\nunset grid\nset origin 0,{:.4f}\nset size 1,{:.4f}\n"
+        "set lmargin at screen 0.04\nset rmargin at screen 0.98\nset key center center horizontal maxrows 2 "
+        "samplen 2\n{}\nunset key\nunset label\nset lmargin -1\nset rmargin -1\nset border 3\nset tics "
+        "nomirror\n"
+        "set logscale xy\nset grid lt 1 lc rgb '#dddddd' lw 0.6\n{}\n",
+        bottom, height, plot, chart.x_tics);
+}
+
 }  // namespace
 
 MethodStyle method_style(const std::string& method) {
     if (method == compressed_name) return {"#0072B2", 6, 7};
     if (method == dense_name) return {"#D55E00", 4, 5};
+    if (const auto diffraction = diffraction_style(method)) return *diffraction;
     return {"#009E73", 8, 9};
 }
 
 std::string panel_script(const PanelChart& chart) {
     const auto count = static_cast<int>(chart.panels.size());
     const int columns = std::min(count, chart.columns), rows = (count + columns - 1) / columns;
-    const double height = 110.0 + chart.panel_height * rows, width = std::max(60.0 + 370.0 * columns, 800.0);
-    const double top = 80 / height, bottom = 30 / height;
+    const double strip = chart.key_strip ? 46 : 0;
+    const double height = 110.0 + strip + chart.panel_height * rows;
+    const double width = std::max(60.0 + 370.0 * columns, 800.0);
+    const double top = (80 + strip) / height, bottom = 30 / height;
     const double cell_w = 1.0 / columns, cell_h = (1 - top - bottom) / rows;
     std::string script = chart_head(chart, width, height);
+    if (chart.key_strip) script += key_strip(chart, 1 - top, strip / height);
     for (int i = 0; i < count; ++i) {
         const Panel& panel = chart.panels[static_cast<std::size_t>(i)];
         const std::string y_label = panel.y_label.empty() && i % columns == 0 ? chart.y_label : panel.y_label;

@@ -40,6 +40,7 @@ struct PanelChart {
     std::string key = "bottom left";  ///< the corner that curves leave free
     int columns = 3;                  ///< at most
     int panel_height = 290;           ///< pixels
+    bool key_strip = false;           ///< one key above all panels, a line per method; none in them
     bool one_key = false;             ///< keys on the first row alone, and x labels on the last
 };
 

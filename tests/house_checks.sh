@@ -37,6 +37,7 @@ check_doors() {
     door GoogleTest 'g(test|mock)/' 'tests/.*'
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
     door 'Embree, OSMesa' 'embree|GL/' 'bench/.*'
+    door FFTW 'fftw3' 'bench/peer_fftw\.cpp'
     door 'wide intrinsics' '(imm|avx[a-z0-9_]*|x86)intrin\.h' 'core/simd(_[a-z]+)?\.h|bench/.*'
 }
 

@@ -1,0 +1,34 @@
+#pragma once
+// Times a set of methods that compute the same field: who can, how wrong they are, how long they take.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/diffraction_bench.h"
+#include "bench/diffraction_results.h"
+#include "bench/diffraction_truth.h"
+
+namespace obscura {
+
+/// One method, ready to run.
+struct MethodJob {
+    DiffractionRow row;                        ///< everything but times and errors
+    std::function<void()> run;                 ///< timed
+    std::function<FieldError()> examine = {};  ///< runs once and compares; not timed. Empty: see row.error
+};
+
+/// What is known of a method that was run before.
+struct MethodPast {
+    std::string aperture, method;
+    int size = 0;
+    double ms = 0;
+};
+
+/// Rows of the jobs, times filled in. Jobs that cannot serve the grid (InputError), or that by their past
+/// would take longer than plan.longest_ms, come out with a problem instead; jobs that have one already keep
+/// it.
+std::vector<DiffractionRow> time_methods(std::vector<MethodJob> jobs, const DiffractionBenchPlan& plan,
+                                         std::vector<MethodPast>& past);
+
+}  // namespace obscura
