@@ -21,6 +21,7 @@ namespace obscura {
 namespace {
 
 constexpr double reference_nm = 550;
+constexpr std::size_t most_exact_corners = 16;  ///< outlines of more are cheaper as masks
 constexpr int finest_mask = 4096;
 constexpr double faithful_cycles_per_texel = 0.25;
 
@@ -41,13 +42,33 @@ double cycles_per_pixel(const PsfParams& params, double wavelength_nm) {
 /// The aperture in the form that serves the frequencies wanted.
 struct Pupil {
     Aperture aperture;
-    bool coverage = false;  ///< the mask is the exact coverage of a known outline
+    FarFieldParams far_field;
+    bool coverage = false;  ///< what is transformed is the exact coverage of a known outline
     double power = 0;       ///< Parseval's total
 };
 
-/// Where the outline is known: a mask fine enough.
+/// Few corners, none outside the mask, where the opening is cut off.
+bool has_closed_form(const Aperture& aperture) {
+    std::size_t corners = 0;
+    for (const auto& loop : aperture.outline.loops) {
+        corners += loop.size();
+        for (const Vec2d& p : loop) {
+            if (p.x < 0 || p.y < 0 || p.x > aperture.mask.width || p.y > aperture.mask.height) return false;
+        }
+    }
+    return aperture.outline.disjoint && corners > 0 && corners <= most_exact_corners;
+}
+
+/// Outlines of few straight edges: their closed form, exact at every frequency. Other outlines: a mask fine
+/// enough. Only a mask: that.
 Pupil pupil_for(const Aperture& aperture, double cycles_per_texel) {
-    Pupil pupil{aperture, !aperture.outline.loops.empty(), 0};
+    Pupil pupil{aperture, {}, !aperture.outline.loops.empty(), 0};
+    if (has_closed_form(aperture)) {
+        pupil.far_field.method = FarFieldMethod::polygon;
+        pupil.power = open_area(aperture.mask.view());
+        pupil.coverage = false;
+        return pupil;
+    }
     const int side = std::max(aperture.mask.width, aperture.mask.height);
     int finer = 1;
     while (cycles_per_texel / finer > faithful_cycles_per_texel && side * finer * 2 <= finest_mask)
@@ -66,16 +87,16 @@ Pupil pupil_for(const Aperture& aperture, double cycles_per_texel) {
     return pupil;
 }
 
-/// What coverage has dimmed at a frequency: texels of the mean of a shape hold its pattern times sinc(u)
-/// sinc(v), up to half a cycle per texel.
+/// What coverage has dimmed at a frequency, one axis's factor: the mean of a shape over each texel, shown as
+/// a square again, has the shape's amplitude times sinc(u)^2, up to half a cycle per texel.
 double coverage_gain(double frequency) {
     const double x = num::pi * std::min(std::fabs(frequency), 0.5);
     const double sinc = x == 0 ? 1 : num::sin(x) / x;
-    return 1 / (sinc * sinc);
+    return 1 / (sinc * sinc * sinc * sinc);
 }
 
 Image<float> pupil_power(const Pupil& pupil, const FrequencyGrid& grid, const Exec& exec) {
-    Image<float> power = far_field_power(pupil.aperture, grid, {}, exec);
+    Image<float> power = far_field_power(pupil.aperture, grid, pupil.far_field, exec);
     if (!pupil.coverage) return power;
     std::vector<float> gain;
     for (int x = 0; x < grid.width; ++x)
@@ -101,7 +122,7 @@ int wavelength_count(const Aperture& aperture, const PsfParams& params, double t
 }
 
 /// Side of the cells that sample the power, in cycles per texel: half a fringe of the aperture's extent, or a
-/// share of a pixel where that is less; a power of two, which fast Fourier transforms serve.
+/// share of a pixel where that is less; for masks a power of two, which fast Fourier transforms serve.
 double cell_for(const Pupil& pupil, double pixel, double tolerance) {
     const OpenExtent extent = open_extent(pupil.aperture.mask.view());
     const double fringe = 1.0 / std::max(extent.width, extent.height);
@@ -109,6 +130,7 @@ double cell_for(const Pupil& pupil, double pixel, double tolerance) {
     const double finer = std::sqrt(0.01 / tolerance);
     const double share = std::max(pixel / 8, std::min(pixel / 4, fringe / 8)) / std::max(1.0, finer);
     const double most = std::min(fringe / 2, share);
+    if (pupil.far_field.method == FarFieldMethod::polygon) return most;
     double cell = 1;
     while (cell > most || cell * std::max(pupil.aperture.mask.width, pupil.aperture.mask.height) > 1)
         cell /= 2;
@@ -170,7 +192,7 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
     psf.wavelengths = static_cast<int>(samples.size());
     psf.cycles_per_px = reference_cycles;
     psf.highest_cycles_per_texel = highest * diameter / texels;
-    psf.method = plan_far_field(pupil.aperture, centred_grid(64, 64, cell), {}).method;
+    psf.method = plan_far_field(pupil.aperture, centred_grid(64, 64, cell), pupil.far_field).method;
     psf.frequencies = pixel_integral_samples(cell, params.radius_px, lights);
     psf.kernel = balanced_kernel(std::move(xyz), params.light);
     return psf;
