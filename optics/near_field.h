@@ -28,12 +28,12 @@ struct PlaneGrid {
 PlaneGrid centred_plane(int size, double extent_texels);
 
 enum class NearFieldMethod {
-    automatic,
-    direct,    ///< every quad at every pixel (3.19)
-    two_pass,  ///< the paper's: factors of every quad tabulated per axis, then summed
-    edges,     ///< one matrix product over the distinct columns where the mask changes
-    hybrid,    ///< runs by their ends in one axis, one-dimensional FFT convolution in the other
-    fft,       ///< two-dimensional FFT convolution with the texel-integrated kernel, padded to twice the size
+    automatic,  ///< edges, hybrid or fft: quads are never fewer products than distinct columns by much
+    direct,     ///< every quad at every pixel (3.19)
+    two_pass,   ///< the paper's: factors of every quad tabulated per axis, then summed
+    edges,      ///< one matrix product over the distinct columns where the mask changes
+    hybrid,     ///< runs by their ends in one axis, one-dimensional FFT convolution in the other
+    fft,  ///< two-dimensional FFT convolution with the texel-integrated kernel, padded to twice the size
 };
 const char* near_field_method_name(NearFieldMethod method);
 
@@ -66,7 +66,9 @@ double fresnel_number(const Aperture& aperture, const NearFieldParams& params);
 NearFieldReport plan_near_field(const Aperture& aperture, const PlaneGrid& grid,
                                 const NearFieldParams& params);
 
-/// U over the plane; error below 2e-6 for Fresnel numbers up to 50. Throws InputError for z <= 0.
+/// U over the plane. Error below 2e-6 of the unobstructed wave's amplitude and of the pattern's own peak,
+/// whichever is less, at any Fresnel number up to 1000. Throws InputError for lengths that are not positive
+/// and finite, and when the method named cannot serve the plane (hybrid, fft: step = p / q with q up to 16).
 Field near_field(const Aperture& aperture, const PlaneGrid& grid, const NearFieldParams& params,
                  const Exec& exec, NearFieldReport* report = nullptr);
 

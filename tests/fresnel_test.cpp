@@ -93,6 +93,13 @@ TEST(Fresnel, LargePhasesAreReducedExactly) {
         EXPECT_EQ(v.c, 0.5 - tail.c) << t;
         EXPECT_EQ(v.s, 0.5 - tail.s) << t;
     }
+    // (2^27 + 1)^2 = 4 k + 1: a quarter turn that a double of the square cannot hold.
+    const FresnelValue quarter = fresnel_integral(0x1p27 + 1), small = fresnel_auxiliary(0x1p27 + 1);
+    EXPECT_EQ(quarter.c, 0.5 + small.s);
+    EXPECT_EQ(quarter.s, 0.5 - small.c);
+    const FresnelValue same = fresnel_at(1, 0x1p26 + 0.5);
+    EXPECT_EQ(same.c, quarter.c);
+    EXPECT_EQ(same.s, quarter.s);
     // turns d^2 = 2^40 + 1/4: (g + i f) i.
     const FresnelValue v = fresnel_at(1 + 0x1p-42, 0x1p20), tail = fresnel_auxiliary(0x1p21);
     EXPECT_NEAR(v.c, 0.5 + tail.s, 1e-15);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <random>
 #include <vector>
 
 #include "optics/aperture.h"
@@ -113,6 +114,15 @@ inline Aperture blades(int width, int height) {
         const double r = std::hypot(x, y), angle = std::atan2(y, x) + 0.04 * r;
         return r > 3 && r < 0.48 * std::min(width, height) && std::sin(5 * angle) > 0.1;
     });
+}
+
+/// The same with every open texel of its own grey.
+inline Aperture grey_blades(int width, int height) {
+    Aperture a = blades(width, height);
+    std::mt19937 random(7);
+    for (float& v : a.mask.pixels)
+        v *= static_cast<float>(random() % 1000) / 999.0f;
+    return a;
 }
 
 }  // namespace obscura::near_field_oracle

@@ -36,7 +36,7 @@ void expect_exact(const Aperture& a, const PlaneGrid& grid, const NearFieldParam
 class AllFresnelNumbers : public ::testing::TestWithParam<double> {};
 
 TEST_P(AllFresnelNumbers, AgreeWithTheSumOverTexels) {
-    for (const Aperture& a : {disc(64, 28.7), blades(64, 64)}) {
+    for (const Aperture& a : {disc(64, 28.7), blades(64, 64), grey_blades(64, 64)}) {
         const NearFieldParams params = at_fresnel_number(a, GetParam());
         expect_exact(a, centred_plane(128, 64), params, "two pixels per texel");
         expect_exact(a, centred_plane(64, 64), params, "one pixel per texel");
