@@ -21,6 +21,7 @@ struct FarFieldProgress {
     Image<float> mask;  ///< of the field below; empty before the first update
     Field field;
     double error_bound = 0;  ///< of the field's amplitudes, in texels^2
+    double refresh_ms = 0;   ///< what the planner expected of the last computation, one thread
 };
 
 struct ProgressReport {
