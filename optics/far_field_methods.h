@@ -28,11 +28,7 @@ void far_field_gemm(const QuadList& quads, const FrequencyGrid& grid, const Fiel
 void far_field_edges(ImageView<const float> mask, const FrequencyGrid& grid, double cull,
                      const FieldTarget& target, const Exec& exec, FarFieldReport* report);
 
-/// True when step = 1 / M for both axes, M a power of two and at least as large as the mask, and first_u and
-/// first_v are whole multiples of it: then phases of texels repeat every M samples.
-bool is_natural_grid(ImageView<const float> mask, const FrequencyGrid& grid);
-
-/// Natural grids only.
+/// Natural grids (optics/natural_grid.h) only.
 void far_field_levels(const QuadList& quads, const FrequencyGrid& grid, const FieldTarget& target,
                       const Exec& exec);
 

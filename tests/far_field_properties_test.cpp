@@ -4,7 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
+#include "core/image_io.h"
 #include "far_field_reference.h"
 #include "optics/far_field_methods.h"
 
@@ -174,6 +178,30 @@ TEST(FarFieldProperties, WindowsMagnifiedAThousandTimes) {
             const Field field = field_of(s, mask, grid);
             EXPECT_LT(worst_error(field, mask.view(), grid, open_area(mask.view()), 12), 1e-6)
                 << s.name << " " << centre;
+        }
+    }
+}
+
+/// Segmented mirrors, spiders, thin gaps: what telescopes look through.
+TEST(FarFieldProperties, RealPupils) {
+    const std::filesystem::path folder =
+        std::filesystem::path(OBSCURA_SOURCE_DIR) / "../shared/data/apertures";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/data/apertures here";
+    for (const char* name : {"jwst", "keck", "vlt_ut1", "gmt"}) {
+        std::ifstream file(folder / (std::string(name) + "_1024.png"), std::ios::binary);
+        ASSERT_TRUE(file) << name;
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        const Image<Rgba8> picture = decode_png(bytes, name);
+        Image<float> mask(picture.width, picture.height);
+        for (std::size_t i = 0; i < mask.pixels.size(); ++i)
+            mask.pixels[i] = static_cast<float>(picture.pixels[i].r) / 255.0f;
+        const double area = open_area(mask.view());
+        ASSERT_GT(area, 1000) << name;
+        for (const FrequencyGrid& grid :
+             {half_grid(512, 512, 1.0 / 1024), centred_grid(96, 96, 0.3 / 1024, 0.01, 0.02)}) {
+            Field field = field_for(grid);
+            far_field_edges(mask.view(), grid, 0, target_of(field), Exec{}, nullptr);
+            EXPECT_LT(worst_error(field, mask.view(), grid, area, 24), 1e-6) << name;
         }
     }
 }
