@@ -24,6 +24,7 @@ constexpr double reference_nm = 550;
 constexpr std::size_t most_exact_corners = 16;  ///< outlines of more are cheaper as masks
 constexpr int finest_mask = 4096;
 constexpr double faithful_cycles_per_texel = 0.25;
+constexpr double shortest_of_weight_nm = 440;  ///< below, little is seen
 
 void check_params(const PsfParams& p) {
     if (!(p.focal_length_m > 0)) throw UsageError("focal length must be positive");
@@ -112,6 +113,23 @@ Image<float> pupil_power(const Pupil& pupil, const FrequencyGrid& grid, const Ex
     return power;
 }
 
+/// Past half a cycle per texel follow copies of the pattern, rainbows that no aperture has: the kernel of a
+/// mask fades out before, for all wavelengths at the same pixels, so that its streaks keep their colour.
+void fade_out(Image<Vec3d>& kernel, double pixel) {
+    const int radius = kernel.width / 2;
+    const double end = 0.5 / pixel, begin = 0.6 * end;
+    if (radius + 0.5 <= begin) return;
+    std::vector<double> kept;
+    for (int x = -radius; x <= radius; ++x) {
+        const double t = std::clamp((std::abs(x) + 0.5 - begin) / (end - begin), 0.0, 1.0);
+        kept.push_back(1 - t * t * (3 - 2 * t));
+    }
+    for (std::size_t i = 0; i < kernel.pixels.size(); ++i) {
+        const std::size_t side = kept.size();
+        kernel.pixels[i] = kernel.pixels[i] * (kept[i % side] * kept[i / side]);
+    }
+}
+
 /// Wavelengths that the kernel needs. A pixel's light passes fringes as the pattern scales past it, but none
 /// finer than the pixel itself: it averages over them.
 int wavelength_count(const Aperture& aperture, const PsfParams& params, double texel_cycles) {
@@ -186,6 +204,11 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
     Image<Vec3d> xyz =
         integrate_over_pixels([&](const FrequencyGrid& grid) { return pupil_power(pupil, grid, exec); }, cell,
                               params.radius_px, lights, exec);
+
+    if (pupil.far_field.method != FarFieldMethod::polygon) {
+        const double nm = std::max(samples.front().wavelength_nm, shortest_of_weight_nm);
+        fade_out(xyz, cycles_per_pixel(params, nm) / texels);
+    }
 
     Psf psf;
     psf.captured = sum_of(xyz).y;
