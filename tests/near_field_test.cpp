@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
-#include "core/error.h"
+#include "core/image_io.h"
 #include "near_field_oracle.h"
 
 namespace obscura {
@@ -58,6 +61,44 @@ TEST(NearField, AnyPlane) {
             expect_exact(a, {17, 29, -17.3, -13.1, 1.3}, params, "ten pixels to thirteen texels");
             expect_exact(a, {1, 1, 0.21, 0.4, 7}, params, "one pixel");
             expect_exact(a, {23, 18, -7.7, -6.1, 0.6180339887498949}, params, "no ratio");
+        }
+    }
+}
+
+/// Segmented mirrors, spiders, thin gaps, at the size of pictures: every 61st pixel of every 61st row.
+TEST(NearField, RealPupils) {
+    const std::filesystem::path folder =
+        std::filesystem::path(OBSCURA_SOURCE_DIR) / "../shared/data/apertures";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/data/apertures here";
+    for (const char* name : {"jwst", "keck", "hst"}) {
+        std::ifstream file(folder / (std::string(name) + "_1024.png"), std::ios::binary);
+        ASSERT_TRUE(file) << name;
+        const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+        const Image<Rgba8> picture = decode_png(bytes, name);
+        Aperture a;
+        a.pitch_m = 1e-5;
+        a.mask = Image<float>(picture.width, picture.height);
+        for (std::size_t i = 0; i < a.mask.pixels.size(); ++i)
+            a.mask.pixels[i] = static_cast<float>(picture.pixels[i].r) / 255.0f;
+        ASSERT_GT(open_area(a.mask.view()), 1000) << name;
+        const PlaneGrid grid = centred_plane(1024, 1024);
+        const PlaneGrid some{16, 15, grid.first_x + 30, grid.first_y + 3, 61};
+        for (const double number : {3.0, 50.0, 400.0}) {
+            NearFieldParams params = at_fresnel_number(a, number);
+            const Plane exact = exact_field(a, some, params);
+            for (const NearFieldMethod method :
+                 {NearFieldMethod::edges, NearFieldMethod::hybrid, NearFieldMethod::fft}) {
+                params.method = method;
+                const Field field = near_field(a, grid, params, {});
+                Field picked{Image<float>(16, 15), Image<float>(16, 15)};
+                for (int y = 0; y < 15; ++y) {
+                    for (int x = 0; x < 16; ++x) {
+                        picked.re(x, y) = field.re(30 + 61 * x, 3 + 61 * y);
+                        picked.im(x, y) = field.im(30 + 61 * x, 3 + 61 * y);
+                    }
+                }
+                EXPECT_LT(compare(picked, exact).largest, 2e-6) << name << " at " << number;
+            }
         }
     }
 }
