@@ -69,7 +69,9 @@ void fill_table(const RunsOfMask& m, int group, Isa isa, Scratch& s) {
     OBSCURA_DISPATCH(isa, edge_phases16, seeds, m.mirrored ? nullptr : s.table_re.data(), s.table_im.data());
 }
 
-/// Sum over the texels of a row (alternating: times (-1)^x), which differences of edges cannot give.
+/// Sum over the texels of a row (alternating: times (-1)^x), which differences of edges cannot give. Sums are
+/// as large as rows are long, those they share a transform with are of order 1: they are scaled down to them,
+/// so that its rounding does not drown the partner.
 float row_sum(const RowRuns& runs, int y, bool alternating) {
     float sum = 0;
     for (auto r = static_cast<std::size_t>(runs.first[static_cast<std::size_t>(y)]);
@@ -96,7 +98,7 @@ SpectrumBlock complex_group(const RunsOfMask& m, int group, Isa isa, Scratch& s,
     sum_rows(m, s.table_re.data(), isa, re);
     sum_rows(m, s.table_im.data(), isa, im);
     for (int y = 0; group == 0 && y < t.height; ++y) {
-        re[16 * y] = row_sum(m.runs, y, false);
+        re[16 * y] = row_sum(m.runs, y, false) * row_sum_scale(t.grid.u);
         im[16 * y] = row_sum(m.runs, y, true);
     }
     fft16_forward(t.v_plan, re, im, isa);
@@ -111,7 +113,7 @@ SpectrumBlock mirrored_pair(const RunsOfMask& m, int group, std::optional<int> p
     fill_table(m, group, isa, s);
     sum_rows(m, s.table_im.data(), isa, re);
     for (int y = 0; group == 0 && y < t.height; ++y)
-        re[16 * y] = row_sum(m.runs, y, false);
+        re[16 * y] = row_sum(m.runs, y, false) * row_sum_scale(t.grid.u);
     if (partner) {
         fill_table(m, *partner, isa, s);
         sum_rows(m, s.table_im.data(), isa, im);
@@ -152,7 +154,9 @@ void column_batch(const RunsOfMask& m, int first, int last, Isa isa, Scratch& s,
         return;
     }
     OBSCURA_DISPATCH(isa, store_columns16, blocks.data(), count, t.rows(), target);
-    if (first == 0) store_real_pair(blocks[0].re, blocks[0].im, t.rows(), t.grid.u, t.u_texel, target);
+    if (first == 0)
+        store_real_pair(blocks[0].re, blocks[0].im, row_sum_scale(t.grid.u), t.rows(), t.grid.u, t.u_texel,
+                        target);
 }
 
 }  // namespace

@@ -94,26 +94,32 @@ GroupStrips complex_strips(const NaturalAxis& u, int group, const AxisFactors& f
     });
 }
 
+float row_sum_scale(const NaturalAxis& u) {
+    return 1.0f / static_cast<float>(u.period());
+}
+
 GroupStrips mirror_strips(const NaturalAxis& u, int group) {
     return group_strips(u, group, 0, [&](int column, int j, bool mirrored) {
         const std::int64_t index = u.first + column;
-        if (j == 0) return index == 0 ? ColumnFactor{1, 0, 1} : ColumnFactor{};
+        const float undo = 1 / row_sum_scale(u);
+        if (j == 0) return index == 0 ? ColumnFactor{undo, 0, undo * undo} : ColumnFactor{};
         // F = D / (2 pi i u); D is i times the sum here, and minus that for the mirrored frequency.
         const double size = 1 / (2 * num::pi * (static_cast<double>(index) / u.period()));
         return ColumnFactor{static_cast<float>(mirrored ? -size : size), 0, static_cast<float>(size * size)};
     });
 }
 
-void store_real_pair(const float* re, const float* im, const SpectrumRows& rows, const NaturalAxis& u,
-                     const AxisFactors& factors, const FieldTarget& target) {
+void store_real_pair(const float* re, const float* im, float scale, const SpectrumRows& rows,
+                     const NaturalAxis& u, const AxisFactors& factors, const FieldTarget& target) {
     const int period = u.period(), row_period = 1 << rows.log2_period;
     for (int c = 0; c < u.count; ++c) {
         const std::int64_t j = (u.first + c) & (period - 1);
         const bool first_of_pair = j == 0;
         if (!first_of_pair && 2 * j != period) continue;
         const auto column = static_cast<std::size_t>(c);
-        const float factor_re = factors.re[column], factor_im = factors.im[column];
-        const float factor_power = factors.power[column];
+        const float undo = first_of_pair ? 1 / scale : 1;
+        const float factor_re = undo * factors.re[column], factor_im = undo * factors.im[column];
+        const float factor_power = undo * undo * factors.power[column];
         for (int r = 0; r < rows.count; ++r) {
             const std::int64_t k = (rows.first + r) & (row_period - 1);
             const std::size_t at = std::size_t{16} * rows.position[k];
