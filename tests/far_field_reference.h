@@ -155,6 +155,7 @@ inline std::vector<FrequencyGrid> all_grids(int size) {
         centred_grid(33, 18, step / 1000, 0.21, -0.13),
         centred_grid(20, 17, step / 4, 40.5, 1000.25),
         centred_grid(1, 1, step, 0, 0),
+        {19, 22, -9.5 * step, -10.5 * step, step, step},
     };
 }
 
