@@ -1,8 +1,27 @@
 #include "lessons/aperture_panels.h"
 
 #include <algorithm>
+#include <numeric>
+#include <vector>
 
 namespace obscura {
+namespace {
+
+QuadList picked(const QuadList& quads, const std::vector<std::size_t>& indices) {
+    QuadList list;
+    list.columns = quads.columns;
+    list.rows = quads.rows;
+    for (const std::size_t k : indices) {
+        list.x.push_back(quads.x[k]);
+        list.y.push_back(quads.y[k]);
+        list.width.push_back(quads.width[k]);
+        list.height.push_back(quads.height[k]);
+        list.weight.push_back(quads.weight[k]);
+    }
+    return list;
+}
+
+}  // namespace
 
 Image<float> binary_mask(ApertureKind kind, int size) {
     ApertureShape shape;
@@ -15,18 +34,19 @@ int level_side(const QuadList& quads, std::size_t k) {
 }
 
 QuadList quads_where(const QuadList& quads, const std::function<bool(std::size_t k)>& keep) {
-    QuadList kept;
-    kept.columns = quads.columns;
-    kept.rows = quads.rows;
-    for (std::size_t k = 0; k < quads.size(); ++k) {
-        if (!keep(k)) continue;
-        kept.x.push_back(quads.x[k]);
-        kept.y.push_back(quads.y[k]);
-        kept.width.push_back(quads.width[k]);
-        kept.height.push_back(quads.height[k]);
-        kept.weight.push_back(quads.weight[k]);
-    }
-    return kept;
+    std::vector<std::size_t> kept(quads.size());
+    std::iota(kept.begin(), kept.end(), std::size_t{0});
+    kept.erase(std::remove_if(kept.begin(), kept.end(), [&](std::size_t k) { return !keep(k); }), kept.end());
+    return picked(quads, kept);
+}
+
+QuadList largest_first(const QuadList& quads) {
+    std::vector<std::size_t> order(quads.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto area = [&](std::size_t k) { return std::int64_t{quads.width[k]} * quads.height[k]; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return area(a) > area(b); });
+    return picked(quads, order);
 }
 
 std::size_t count_negative(const QuadList& quads) {

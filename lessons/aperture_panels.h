@@ -19,6 +19,9 @@ int level_side(const QuadList& quads, std::size_t k);
 /// The quads k with keep(k), in their order.
 QuadList quads_where(const QuadList& quads, const std::function<bool(std::size_t k)>& keep);
 
+/// By area; equally large ones stay in their order.
+QuadList largest_first(const QuadList& quads);
+
 /// Negative weights: the sum is the mask only with them.
 std::size_t count_negative(const QuadList& quads);
 

@@ -111,6 +111,8 @@ constexpr Glyph glyphs[] = {
     {U'≤', 6, "6n0k6h 0e6e"},
     {U'²', 4, "0o~0q2q~4q4o~4n0k4k"},
     {U'ε', 5, "5l~4m3m~0m0k~0i3i 3i~0i0g~0e3e~4e5f"},
+    {U'λ', 6, "0q~1q2o6e 3k0e"},
+    {U'π', 7, "0k~0m2m7m 2m~2h1e 5m5g~5e7e"},
     {U'→', 9, "0i9i 6l9i6f"},
 };
 

@@ -18,5 +18,6 @@ Image<Rgb8> lesson_6_tree(const Exec& exec);
 Image<Rgb8> lesson_7_recursion(const Exec& exec);
 Image<Rgb8> lesson_8_lookups(const Exec& exec);
 Image<Rgb8> lesson_9_quads(const Exec& exec);
+Image<Rgb8> lesson_10_adding_quads(const Exec& exec);
 
 }  // namespace obscura

@@ -68,4 +68,19 @@ void decade_axes(Figure& f, const Plot& plot, bool x_too, std::string_view x_nam
     f.text(plot.at(plot.x1, plot.y0) + Vec2d{10, 38}, x_name, {9, ink::soft, Align::right});
 }
 
+void decade_curve(Figure& f, const Plot& plot, const std::vector<double>& values, const Pen& pen) {
+    const double step = (plot.x1 - plot.x0) / (static_cast<double>(values.size()) - 1);
+    std::vector<Vec2d> line;
+    for (const double value : values) {
+        const double y = value > 0 ? std::max(decades_of(value), plot.y0) : plot.y0;
+        line.push_back(plot.at(plot.x0 + static_cast<double>(line.size()) * step, y));
+    }
+    f.polyline(line, pen);
+}
+
+void axis_numbers(Figure& f, const Plot& plot, std::initializer_list<double> numbers, int decimals) {
+    for (const double x : numbers)
+        f.text(plot.at(x, plot.y0) + Vec2d{0, 18}, fmt::format("{:.{}f}", x, decimals), lettering::tick);
+}
+
 }  // namespace obscura

@@ -1,7 +1,9 @@
 #pragma once
 // Panels of lessons 9 to 12: patterns on a scale of colours, masks, axes in powers of ten.
 
+#include <initializer_list>
 #include <string_view>
+#include <vector>
 
 #include "core/image.h"
 #include "lessons/figure.h"
@@ -28,5 +30,11 @@ void draw_mask(Figure& f, Vec2d origin, int side, ImageView<const float> mask, R
 
 /// Axes and lines at the powers of ten of a plot whose y (and, with `x_too`, x) are logarithms to base 10.
 void decade_axes(Figure& f, const Plot& plot, bool x_too, std::string_view x_name, std::string_view y_name);
+
+/// log10 of values at equal steps from plot.x0 to plot.x1, drawn no lower than plot.y0.
+void decade_curve(Figure& f, const Plot& plot, const std::vector<double>& values, const Pen& pen);
+
+/// Numbers below the horizontal axis.
+void axis_numbers(Figure& f, const Plot& plot, std::initializer_list<double> numbers, int decimals);
 
 }  // namespace obscura
