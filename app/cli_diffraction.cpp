@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "app/aperture_file.h"
 #include "app/cli_commands.h"
 #include "app/cli_flags.h"
 #include "app/diffraction_command.h"
@@ -87,11 +88,16 @@ struct Texts {
 };
 
 void add_aperture_flags(Flags& flags, Texts& t, ApertureShape& shape) {
-    flags.positional("APERTURE", t.aperture, "iris, circle, box, whirl, annulus, slit, grating or hexagons.");
+    flags.positional("APERTURE", t.aperture,
+                     "iris, circle, box, whirl, annulus, slit, grating or hexagons; or a mask, white = open "
+                     "(.png, .pbm, .pgm).");
     flags.group("Aperture");
     flags.whole("--mask-size", "N", t.mask, 1, 32768, "Texels a side of a shape's mask.", "1024");
-    flags.text("--diameter-mm", "MM", t.diameter,
-               "Diameter of the shape, which takes 0.9 of its mask, millimetres.", "5");
+    flags.text(
+        "--diameter-mm", "MM", t.diameter,
+        "Diameter of the shape, which takes 0.9 of its mask, or of what a mask leaves open (the longer "
+        "side), millimetres.",
+        "5");
     flags.text("--pitch-um", "UM", t.pitch, "Instead of that: side of a texel, micrometres.", "none");
     flags.whole("--blades", "N", t.blades, 3, 64, "iris, whirl: number of blades.", "7");
     flags.number("--rotation-deg", "DEG", shape.rotation_deg, -36000, 36000,
@@ -207,7 +213,11 @@ int run_diffraction(const Arguments& arguments) {
     if (!flags.parse(dashed)) return 0;
 
     options.aperture = t.aperture;
-    shape.kind = named_value("APERTURE", t.aperture, shape_kinds, aperture_kind_name);
+    if (names_mask_file(t.aperture)) {
+        options.mask_file = t.aperture;
+    } else {
+        shape.kind = named_value("APERTURE", t.aperture, shape_kinds, aperture_kind_name);
+    }
     shape.blades = static_cast<int>(t.blades);
     shape.slits = static_cast<int>(t.slits);
     shape.lines = static_cast<int>(t.lines);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
+#include "app/aperture_file.h"
 #include "app/json_writer.h"
 #include "app/stopwatch.h"
 #include "core/error.h"
@@ -20,6 +22,7 @@ namespace {
 constexpr double reference_nm = 550;
 constexpr double default_diameter_m = 0.005;
 constexpr int near_wavelengths = 40;
+constexpr std::int64_t bytes_per_texel = 4 * 6;
 
 /// What is computed, over which grid, and how.
 struct Job {
@@ -34,16 +37,15 @@ struct Job {
 
 /// Bytes that a pattern holds at most: numbers, the largest of its intermediate pictures, codes of the files.
 /// The methods' own tables are small beside them.
-std::int64_t pattern_bytes(const DiffractionOptions& options) {
+std::int64_t pattern_bytes(const DiffractionOptions& options, std::int64_t texels) {
     const std::int64_t pixels = std::int64_t{options.size_px} * options.size_px;
-    const std::int64_t side = options.mask_px;
     const std::int64_t amplitudes = options.amplitude || options.near_m ? 2 * 4 : 0;
     const std::int64_t numbers = (options.spectrum ? 4 + 12 + 24 : 2 * 4) + amplitudes;
-    return pixels * (numbers + 3 * 3 + 12) + side * side * 4 * 6;
+    return pixels * (numbers + 3 * 3 + 12) + texels * bytes_per_texel;
 }
 
-void check_limits(const DiffractionOptions& options) {
-    const std::int64_t bytes = pattern_bytes(options);
+void check_limits(const DiffractionOptions& options, std::int64_t texels) {
+    const std::int64_t bytes = pattern_bytes(options, texels);
     if (bytes <= options.memory_mib << 20) return;
     throw LimitError(
         fmt::format("a pattern of {0} x {0} pixels needs about {1:.0f} MiB, more than "
@@ -51,10 +53,26 @@ void check_limits(const DiffractionOptions& options) {
                     options.size_px, static_cast<double>(bytes) / (1 << 20), options.memory_mib));
 }
 
-Aperture load_aperture(const DiffractionOptions& options) {
+Aperture mask_from_file(const DiffractionOptions& options) {
+    ImageFileLimits limits;
+    limits.max_bytes = (options.memory_mib << 20) / bytes_per_texel * std::int64_t{sizeof(Rgba8)};
+    Image<float> mask = read_mask(options.mask_file, options.aperture, limits);
+    check_limits(options, std::int64_t{mask.width} * mask.height);
+    ApertureScale scale{options.pitch_m, options.diameter_m};
+    if (!scale.pitch_m && !scale.diameter_m) scale.diameter_m = default_diameter_m;
+    return scaled_aperture(std::move(mask), scale);
+}
+
+Aperture mask_from_shape(const DiffractionOptions& options) {
+    check_limits(options, std::int64_t{options.mask_px} * options.mask_px);
     Aperture aperture =
         make_aperture(options.shape, options.mask_px, options.diameter_m.value_or(default_diameter_m));
     if (options.pitch_m) aperture.pitch_m = *options.pitch_m;
+    return aperture;
+}
+
+Aperture load_aperture(const DiffractionOptions& options) {
+    Aperture aperture = options.mask_file.empty() ? mask_from_shape(options) : mask_from_file(options);
     if (options.finest_level > 0) aperture = reduce(aperture, options.finest_level, true);
     return aperture;
 }
@@ -259,7 +277,6 @@ int diffraction_command(const DiffractionOptions& options) {
     if (options.amplitude && options.spectrum)
         throw UsageError("--amplitude is of one wavelength: give --wavelength-nm, not --spectrum");
     if (!options.plan_only) check_files(options);
-    check_limits(options);
     Job job = plan_job(options);
     if (!(job.open > 0))
         throw InputError(options.aperture, "the aperture is closed: no texel lets light through");

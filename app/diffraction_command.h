@@ -27,12 +27,14 @@ struct Pattern {
 };
 
 struct DiffractionOptions {
-    std::string aperture;  ///< as given
+    std::string aperture;             ///< as given
+    std::filesystem::path mask_file;  ///< empty: the shape
     ApertureShape shape;
-    int mask_px = 1024;                ///< side of a shape's mask
-    std::optional<double> diameter_m;  ///< of a shape, which takes 0.9 of its mask
-    std::optional<double> pitch_m;     ///< of a texel; neither: 5 mm
-    int finest_level = 0;              ///< masks are reduced by 2^level first, to 0 and 1
+    int mask_px = 1024;  ///< side of a shape's mask
+    std::optional<double>
+        diameter_m;                 ///< of a shape, which takes 0.9 of its mask; of what a file leaves open
+    std::optional<double> pitch_m;  ///< of a texel; neither: 5 mm
+    int finest_level = 0;           ///< masks are reduced by 2^level first, to 0 and 1
 
     std::optional<double> near_m;  ///< distance; none: far field
     std::optional<LightSpectrum> spectrum;

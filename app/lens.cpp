@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "app/aperture_file.h"
 #include "core/error.h"
 #include "core/num.h"
 #include "optics/aperture_shapes.h"
@@ -79,8 +81,7 @@ double pixel_m(const OpticsSettings& optics, const RenderSettings& render) {
 Aperture lens_aperture(const OpticsSettings& optics) {
     Aperture aperture;
     if (optics.aperture == "file") {
-        aperture.mask = optics.mask;
-        aperture.pitch_m = pupil_m(optics) / optics.mask.width;
+        aperture = scaled_aperture(optics.mask, {std::nullopt, pupil_m(optics)});
     } else {
         aperture = make_aperture(shape_of(optics), optics.mask_px, pupil_m(optics));
     }
@@ -112,12 +113,15 @@ int kernel_side(const OpticsSettings& optics) {
 
 std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render) {
     if (!optics.enabled) return 0;
-    const std::int64_t side = kernel_side(optics), mask = optics.mask_px;
+    const std::int64_t side = kernel_side(optics);
+    const std::int64_t texels = optics.aperture == "file"
+                                    ? std::int64_t{optics.mask.width} * optics.mask.height
+                                    : std::int64_t{optics.mask_px} * optics.mask_px;
     // The pattern of one wavelength, and sums of colours in double and float, while the kernel is made; then
     // the glare itself, when all of the picture is bright.
     const std::int64_t pattern =
         side * side * std::int64_t{4 * sizeof(float) + sizeof(Vec3d) + sizeof(Vec3f)};
-    const std::int64_t aperture = mask * mask * std::int64_t{4 * sizeof(float)};
+    const std::int64_t aperture = texels * std::int64_t{4 * sizeof(float)};
     return pattern + aperture +
            most_glare(render.width, render.height, kernel_side(optics), glare_params(optics, render)).bytes;
 }

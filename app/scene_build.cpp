@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/aperture_file.h"
 #include "app/keyframes.h"
 #include "app/mesh_transform.h"
 #include "app/obj_file.h"
@@ -208,6 +209,16 @@ void add_mesh(Builder& b, const SceneTable& table) {
     }
 }
 
+/// The lens's mask when it comes from a file, else nothing. Textures' limits hold for it, too.
+Image<float> lens_mask(const Builder& b) {
+    if (!b.document.root.has("optics")) return {};
+    const SceneTable& optics = subtable(b.document.root, "optics");
+    if (text(optics, "aperture") != "file") return {};
+    return load_named(b, optics, "file", [&](const std::filesystem::path& path) {
+        return read_mask(path, text(optics, "file"), {b.limits.texture_px, b.limits.texture_mib << 20});
+    });
+}
+
 Sky sky_of(const SceneTable& table) {
     Sky sky;
     sky.zenith = to_float(vec3(table, "zenith_w_m2_sr"));
@@ -253,6 +264,7 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     add_materials(b);
     for (const SceneTable* mesh : subtables(document.root, "mesh"))
         add_mesh(b, *mesh);
+    b.scene.optics.mask = lens_mask(b);
     set_frame(b.scene, document, scene_frames(document).first);
     check_caches(b);
     check_memory(estimate_memory(b.scene), b.limits, document.sources[0]);

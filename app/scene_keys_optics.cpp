@@ -49,6 +49,12 @@ std::vector<VariantSpec> aperture_variants() {
          "A segmented mirror.",
          {count("rings", "Rings of segments around the missing one in the middle.", 1, 32, d.rings),
           rotation_key()}},
+        {"file",
+         "A mask; what it leaves open is as wide (its longer side) as the lens.",
+         {file_key("file",
+                   "PNG, PBM or PGM, relative to the scene file and inside its folder: white is open, black "
+                   "closed, no colours, no transparency.")
+              .need()}},
     };
 }
 

@@ -130,6 +130,15 @@ void check_limits(const PngHeader& h, const std::string& name, const ImageFileLi
     }
 }
 
+void read_density(const Chunk& chunk, const std::string& name, PngFile& file) {
+    if (chunk.data.size() != 9) {
+        throw InputError(name, fmt::format("PNG chunk pHYs at byte {}: {} bytes instead of 9", chunk.offset,
+                                           chunk.data.size()));
+    }
+    file.density_x = big_endian(chunk.data.substr(0, 4));
+    file.density_y = big_endian(chunk.data.substr(4, 4));
+}
+
 bool is_critical(const Chunk& chunk) {
     return chunk.type[0] <= 'Z';
 }
@@ -187,6 +196,7 @@ PngFile walk_png(std::string_view bytes, const std::string& name, const ImageFil
             continue;
         }
         pixels_ended = pixels_ended || was_pixels;
+        if (chunk.type == "pHYs") read_density(chunk, name, file);
         if (is_critical(chunk) && chunk.type != "PLTE" && chunk.type != "IEND") {
             throw InputError(
                 name, fmt::format("PNG chunk {} at byte {} is not understood", chunk.type, chunk.offset));

@@ -19,6 +19,8 @@ struct PngHeader {
 struct PngFile {
     PngHeader header;
     std::string pixel_stream;  ///< the IDAT chunks joined: a zlib stream of filtered rows
+    /// Pixels per unit of length as chunk pHYs has them; square when there is none.
+    std::uint32_t density_x = 1, density_y = 1;
 };
 
 /// Walks all chunks: signature, lengths, CRCs, order, header values, limits, IEND at the very end.

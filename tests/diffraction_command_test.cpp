@@ -54,6 +54,28 @@ TEST(DiffractionCommand, SlitsDoNotDependOnTheMethod) {
     }
 }
 
+TEST(DiffractionCommand, MasksFromFiles) {
+    const Folder folder;
+    // A slit of two columns: cos^2 between its zeros at half a cycle per column, times the texel's sinc^2.
+    folder.write("slit.pgm", "P2\n4 1\n9\n0 9 9 0\n");
+    const Outcome run = run_in(folder, {"diffraction", "slit.pgm", "--size", "64", "-o", "s.pfm"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.out.find("4 x 1 texels of 2500 um"), std::string::npos) << run.out;
+    const Image<float> power = grey_pfm(folder, "s.pfm");
+    const auto sinc = [](double x) { return x == 0 ? 1.0 : std::sin(x) / x; };
+    for (int x = 0; x < 64; ++x) {
+        const double u = 3.14159265358979 * (x - 32) / 64;
+        ASSERT_NEAR(power(x, 32), std::pow(std::cos(u) * sinc(u), 2), 2e-6) << x;
+    }
+    folder.write("closed.pbm", "P1\n1 1\n1\n");
+    EXPECT_EQ(run_in(folder, {"diffraction", "closed.pbm", "-o", "c.png"}).code, 3);
+    EXPECT_EQ(run_in(folder, {"diffraction", "slit.pgm", "--limit-memory", "1", "--size", "16"}).code, 0);
+    folder.write("large.pgm", "P5\n4096 4096\n255\n");
+    const Outcome large =
+        run_in(folder, {"diffraction", "large.pgm", "--limit-memory", "100", "-o", "l.png"});
+    EXPECT_EQ(large.code, 4) << large.err;
+}
+
 TEST(DiffractionCommand, CentreMovesTheWindow) {
     const Folder folder;
     const std::vector<std::string> line = {"diffraction", "iris", "--mask-size", "64", "--size", "64"};
@@ -201,6 +223,8 @@ TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
         {{"iris", "--size", "900000"}, 4, "more than --limit-memory 4096"},
         {{"iris", "--size", "2048", "--limit-memory", "8"}, 4, "more than --limit-memory 8"},
         {{"iris", "--blades", "2"}, 2, "--blades: '2' is not a whole number from 3 to 64"},
+        {{"irsi"}, 2, "did you mean 'iris'?"},
+        {{"none.png"}, 3, "none.png: cannot open"},
         {{"iris", "-o", "a.jpg"}, 2, "pictures end in .png"},
         {{"iris", "-o", "none/a.png"}, 5, "none/a.png: cannot be created"},
         {{}, 2, "APERTURE is missing"},
