@@ -137,7 +137,7 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
 /// Values to try for a key, in TOML: whatever its type allows.
 std::vector<std::string> candidates(const KeySpec& key) {
     static const std::map<std::string, std::vector<std::string>> special = {
-        {"file", {"\"other.obj\"", "\"other_####.png\""}},
+        {"file", {"\"other.obj\"", "\"other_####.png\"", "\"other.pgm\""}},
         {"texture", {"\"other.png\""}},
         {"cache", {"\"maps\""}},
         {"material", {"\"other\""}},
@@ -187,6 +187,8 @@ class SceneKeys : public testing::Test {
         access_.root = name;
         write("tent.obj", "v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 1\nv 1 2 0\nv 0 2 0\nf 1 2 3 4\nf 4 3 5 6\n");
         write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+        write("one.pgm", "P2 2 1 3 1 3");
+        write("other.pgm", "P2 2 1 3 3 2");
         write("one.png", encode_png(Image<Rgb8>(2, 2, Rgb8{10, 20, 30}).view()));
         write("other.png", encode_png(Image<Rgb8>(2, 2, Rgb8{40, 20, 30}).view()));
     }
@@ -313,8 +315,9 @@ TEST_F(SceneKeys, OfOpticsAreRead) {
     const std::string base = start + camera;
     std::vector<std::string> bases, animated;
     for (const VariantSpec& variant : optics_table().variants) {
-        const std::string own =
-            base + "[optics]\naperture = \"" + variant.name + "\"\nlight = \"blackbody\"\n";
+        const std::string own = base + "[optics]\naperture = \"" + variant.name +
+                                "\"\nlight = \"blackbody\"\n" +
+                                (variant.name == "file" ? "file = \"one.pgm\"\n" : "");
         expect_all_matter({own}, "optics.", optics_table().keys, {"aperture"});
         expect_all_matter({own}, "optics.", variant.keys);
         animated.push_back(own + keyframes + "[[frames.optics]]\nframe = 1\nclip = 2\n" +
