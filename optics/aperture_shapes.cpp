@@ -240,6 +240,29 @@ const char* aperture_kind_name(ApertureKind kind) {
     return names[static_cast<int>(kind)];
 }
 
+ApertureShape paper_aperture(ApertureKind kind) {
+    ApertureShape shape;
+    shape.kind = kind;
+    if (kind == ApertureKind::box) {
+        // On the grid up to 512 texels (rounded), one texel off at 1024, two at 2048.
+        constexpr double off_grid = 0.85 / 1024;
+        shape.diameter = 0.5625 + off_grid;
+        shape.offset_x = shape.offset_y = 0.5 * off_grid;
+    } else if (kind == ApertureKind::circle) {
+        shape.diameter = 0.485;
+    } else if (kind == ApertureKind::iris) {
+        shape.diameter = 0.75;
+        shape.rotation_deg = 5;
+    } else {
+        CHECK(kind == ApertureKind::whirl, "one of the four");
+        shape.diameter = 0.63;
+        shape.blades = 5;
+        shape.hub = 0.3;
+        shape.twist_deg = 45;
+    }
+    return shape;
+}
+
 Outline outline_of(const ApertureShape& shape, int size) {
     check_parameters(shape);
     Outline outline;

@@ -52,6 +52,12 @@ struct ApertureShape {
 /// "iris", "circle", "box", "whirl", "annulus", "slit", "grating", "hexagons".
 const char* aperture_kind_name(ApertureKind kind);
 
+/// Stand-ins for the thesis's four test apertures (figure 3.8): box, circle, iris (its heptagon) or whirl. It
+/// prints no sizes: scales, the heptagon's turn, the box's place (two edges off the grid by one texel in
+/// 1024) and the whirl's form are chosen so that a 4096 x 4096 mask has about as many quads as in its
+/// Table 3.1.
+ApertureShape paper_aperture(ApertureKind kind);
+
 /// In texels of a size x size mask. Curves become chords no farther than 1e-6 texel from them; straight
 /// shapes have their corners only. Throws UsageError when a parameter is out of its range.
 Outline outline_of(const ApertureShape& shape, int size);

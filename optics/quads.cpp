@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <tuple>
 
 #include "core/double_double.h"
 
@@ -32,10 +31,10 @@ struct Quad {
 
 /// Which children are written as one rectangle when both differ from the parent and are equal.
 enum class Pairing { none, rows, columns };
-constexpr std::array<std::array<int, 2>, 2> row_pairs{{{0, 1}, {2, 3}}};
-constexpr std::array<std::array<int, 2>, 2> column_pairs{{{0, 2}, {1, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, 2> row_pairs{{{0, 1}, {2, 3}}};
+constexpr std::array<std::array<std::size_t, 2>, 2> column_pairs{{{0, 2}, {1, 3}}};
 
-const std::array<std::array<int, 2>, 2>& pairs_of(Pairing pairing) {
+const std::array<std::array<std::size_t, 2>, 2>& pairs_of(Pairing pairing) {
     return pairing == Pairing::columns ? column_pairs : row_pairs;
 }
 
@@ -53,10 +52,9 @@ int steps(float parent, float child) {
 int cost_of(const Children& c, float parent, Pairing pairing) {
     int cost = 0;
     for (const auto& [a, b] : pairs_of(pairing)) {
-        const bool merged =
-            pairing != Pairing::none && c[static_cast<std::size_t>(a)] == c[static_cast<std::size_t>(b)];
-        cost += steps(parent, c[static_cast<std::size_t>(a)]);
-        if (!merged) cost += steps(parent, c[static_cast<std::size_t>(b)]);
+        const bool merged = pairing != Pairing::none && c[a] == c[b];
+        cost += steps(parent, c[a]);
+        if (!merged) cost += steps(parent, c[b]);
     }
     return cost;
 }
@@ -98,9 +96,9 @@ void append_steps(std::vector<Quad>& quads, Quad place, float parent, float chil
 /// The quads of one node whose children have sides of `side` texels, the first at (x, y).
 void append_node(std::vector<Quad>& quads, const Children& c, const Choice& choice, int x, int y, int side) {
     for (const auto& [a, b] : pairs_of(choice.pairing)) {
-        const float first = c[static_cast<std::size_t>(a)], second = c[static_cast<std::size_t>(b)];
-        const auto place = [&](int child, int width, int height) {
-            return Quad{x + (child & 1) * side, y + (child >> 1) * side, width, height, 0};
+        const float first = c[a], second = c[b];
+        const auto place = [&](std::size_t child, int width, int height) {
+            return Quad{child % 2 == 1 ? x + side : x, child >= 2 ? y + side : y, width, height, 0};
         };
         if (choice.pairing != Pairing::none && first == second) {
             const bool rows = choice.pairing == Pairing::rows;
