@@ -115,19 +115,34 @@ Image<float> pupil_power(const Pupil& pupil, const FrequencyGrid& grid, const Ex
 
 /// Past half a cycle per texel follow copies of the pattern, rainbows that no aperture has: the kernel of a
 /// mask fades out before, for all wavelengths at the same pixels, so that its streaks keep their colour.
-void fade_out(Image<Vec3d>& kernel, double pixel) {
-    const int radius = kernel.width / 2;
-    const double end = 0.5 / pixel, begin = 0.6 * end;
-    if (radius + 0.5 <= begin) return;
-    std::vector<double> kept;
-    for (int x = -radius; x <= radius; ++x) {
-        const double t = std::clamp((std::abs(x) + 0.5 - begin) / (end - begin), 0.0, 1.0);
-        kept.push_back(1 - t * t * (3 - 2 * t));
+struct Fading {
+    double begin_px = 0, end_px = 0;
+    /// Share that is kept of pixels this far along an axis; all of the middle one.
+    double kept(int px) const {
+        if (px == 0) return 1;
+        const double t = std::clamp((std::abs(px) + 0.5 - begin_px) / (end_px - begin_px), 0.0, 1.0);
+        return 1 - t * t * (3 - 2 * t);
     }
-    for (std::size_t i = 0; i < kernel.pixels.size(); ++i) {
-        const std::size_t side = kept.size();
-        kernel.pixels[i] = kernel.pixels[i] * (kept[i % side] * kept[i / side]);
+    /// Radius beyond which nothing is kept.
+    int radius(int most) const { return end_px < most ? static_cast<int>(std::ceil(end_px)) : most; }
+};
+
+Fading fading_of(const Pupil& pupil, double pixel) {
+    const double end = pupil.far_field.method == FarFieldMethod::polygon ? 1e9 : 0.5 / pixel;
+    return {0.6 * end, end};
+}
+
+/// A kernel of a larger radius, faded, dark around the one given.
+Image<Vec3d> faded(const Image<Vec3d>& inner, const Fading& fading, int radius_px) {
+    const int side = 2 * radius_px + 1, inner_radius = inner.width / 2;
+    Image<Vec3d> kernel(side, side);
+    for (int y = -inner_radius; y <= inner_radius; ++y) {
+        for (int x = -inner_radius; x <= inner_radius; ++x) {
+            kernel(radius_px + x, radius_px + y) =
+                inner(inner_radius + x, inner_radius + y) * (fading.kept(x) * fading.kept(y));
+        }
     }
+    return kernel;
 }
 
 /// Wavelengths that the kernel needs. A pixel's light passes fringes as the pattern scales past it, but none
@@ -144,10 +159,11 @@ int wavelength_count(const Aperture& aperture, const PsfParams& params, double t
 double cell_for(const Pupil& pupil, double pixel, double tolerance) {
     const OpenExtent extent = open_extent(pupil.aperture.mask.view());
     const double fringe = 1.0 / std::max(extent.width, extent.height);
-    // Constant power over cells is wrong by 0.3 (cell / fringe)^2 of the peak at worst.
-    const double finer = std::sqrt(0.01 / tolerance);
-    const double share = std::max(pixel / 8, std::min(pixel / 4, fringe / 8)) / std::max(1.0, finer);
-    const double most = std::min(fringe / 2, share);
+    // Constant power over cells is wrong by 0.3 (cell / fringe)^2 of the peak at worst. Pixels of many
+    // fringes need little more than one cell for each: the whole of |F|^2 is exact from one on.
+    const double finer = std::max(1.0, std::sqrt(0.01 / tolerance));
+    const double share = std::max(pixel / 8, std::min(pixel / 4, fringe / 8)) / finer;
+    const double most = std::min(share, std::clamp(pixel / (16 * finer), fringe / 2, 0.95 * fringe));
     if (pupil.far_field.method == FarFieldMethod::polygon) return most;
     double cell = 1;
     while (cell > most || cell * std::max(pupil.aperture.mask.width, pupil.aperture.mask.height) > 1)
@@ -201,14 +217,12 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
     for (const SpectralSample& sample : samples)
         lights.push_back(
             {cycles_per_pixel(params, sample.wavelength_nm) / texels, sample.xyz * (1 / pupil.power)});
+    const double blue_nm = std::max(samples.front().wavelength_nm, shortest_of_weight_nm);
+    const Fading fading = fading_of(pupil, cycles_per_pixel(params, blue_nm) / texels);
+    const int lit_radius = fading.radius(params.radius_px);
+    const auto power = [&](const FrequencyGrid& grid) { return pupil_power(pupil, grid, exec); };
     Image<Vec3d> xyz =
-        integrate_over_pixels([&](const FrequencyGrid& grid) { return pupil_power(pupil, grid, exec); }, cell,
-                              params.radius_px, lights, exec);
-
-    if (pupil.far_field.method != FarFieldMethod::polygon) {
-        const double nm = std::max(samples.front().wavelength_nm, shortest_of_weight_nm);
-        fade_out(xyz, cycles_per_pixel(params, nm) / texels);
-    }
+        faded(integrate_over_pixels(power, cell, lit_radius, lights, exec), fading, params.radius_px);
 
     Psf psf;
     psf.captured = sum_of(xyz).y;
@@ -216,7 +230,7 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
     psf.cycles_per_px = reference_cycles;
     psf.highest_cycles_per_texel = highest * diameter / texels;
     psf.method = plan_far_field(pupil.aperture, centred_grid(64, 64, cell), pupil.far_field).method;
-    psf.frequencies = pixel_integral_samples(cell, params.radius_px, lights);
+    psf.frequencies = pixel_integral_samples(cell, lit_radius, lights);
     psf.kernel = balanced_kernel(std::move(xyz), params.light);
     return psf;
 }

@@ -247,6 +247,39 @@ TEST(Psf, OutlinesServeWhereMasksDoNot) {
     EXPECT_LT(error, 0.08);
 }
 
+TEST(Psf, CellsAreFineEnough) {
+    // From pixels that are a small part of the central spot to pixels of many fringes, against finer cells
+    // and more wavelengths: relative to each pixel's own light in the mean, and to the brightest at worst.
+    const Aperture hept = aperture_of(ApertureKind::iris, 256);
+    for (const double f_number : {1.4, 5.6, 22.0, 90.0}) {
+        PsfParams params = lens(f_number, 12, 20);
+        params.wavelengths = 150;
+        const Psf psf = far_field_psf(hept, params, {});
+        params.tolerance = 1e-4;
+        const Psf fine = far_field_psf(hept, params, {});
+        ASSERT_GT(fine.frequencies, 3 * psf.frequencies);
+        double mean = 0, worst = 0;
+        for (int y = 0; y < 41; ++y) {
+            for (int x = 0; x < 41; ++x) {
+                const double error = std::fabs(luminance(psf, x, y) - luminance(fine, x, y));
+                mean += error / luminance(fine, x, y) / (41 * 41);
+                worst = std::max(worst, error / luminance(fine, 20, 20));
+            }
+        }
+        EXPECT_LT(mean, 0.01) << f_number;
+        EXPECT_LT(worst, 0.01) << f_number;
+    }
+}
+
+TEST(Psf, MasksOfVeryFewTexelsStillHaveAKernel) {
+    Aperture bare = aperture_of(ApertureKind::circle, 16);
+    bare.outline = {};
+    const Psf psf = far_field_psf(bare, lens(1.4, 18.75, 8), {});
+    const Vec3d sum = sum_of(psf.kernel);
+    EXPECT_NEAR(srgb_luminance(sum), 1, 1e-5);
+    EXPECT_GT(luminance(psf, 8, 8), 0.5);
+}
+
 TEST(Psf, ThreadsAndInstructionSetsDoNotShow) {
     const Aperture hept = aperture_of(ApertureKind::iris, 128);
     const PsfParams params = lens(8, 6, 20);
