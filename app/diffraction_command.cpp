@@ -14,6 +14,7 @@
 #include "core/image_io.h"
 #include "core/num.h"
 #include "core/parallel.h"
+#include "optics/near_field_scaled.h"
 #include "optics/psf.h"
 
 namespace obscura {
@@ -177,21 +178,10 @@ Pattern far_pattern(const DiffractionOptions& options, Job& job) {
 }
 
 /// Every wavelength of the light has its own near field; their colours add up.
-Image<Vec3f> near_colour(const DiffractionOptions& options, Job& job) {
+Image<Vec3f> near_colour(const DiffractionOptions& options, const Job& job) {
     const int count = options.wavelengths > 0 ? options.wavelengths : near_wavelengths;
-    Image<Vec3d> sum(options.size_px, options.size_px);
-    for (const SpectralSample& sample : spectral_samples(*options.spectrum, count)) {
-        NearFieldParams params = job.near;
-        params.wavelength_m = 1e-9 * sample.wavelength_nm;
-        const Image<float> light =
-            near_field_intensity(job.aperture, job.plane, params, options.exec, &job.near_plan);
-        for (std::size_t i = 0; i < sum.pixels.size(); ++i)
-            sum.pixels[i] = sum.pixels[i] + sample.rgb * static_cast<double>(light.pixels[i]);
-    }
-    Image<Vec3f> colour(options.size_px, options.size_px);
-    std::transform(sum.pixels.begin(), sum.pixels.end(), colour.pixels.begin(),
-                   [](Vec3d c) { return to_float(into_gamut(c)); });
-    return colour;
+    return near_field_colour(job.aperture, job.plane, job.near, *options.spectrum, count,
+                             NearFieldColour::exact, options.exec);
 }
 
 Pattern near_pattern(const DiffractionOptions& options, Job& job) {

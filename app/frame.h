@@ -27,11 +27,13 @@ struct FrameOptions {
 
 /// Glare of a frame whose scene has a lens.
 struct GlareStats {
-    double total_s = 0;        ///< all of it, the next included
-    double psf_s = 0;          ///< the lens's patterns; 0 when kept
-    bool kept = false;         ///< patterns of an earlier frame served
-    bool fft = false;          ///< else splats
-    std::int64_t sources = 0;  ///< pixels that clipped
+    double total_s = 0;                   ///< all of it, the next included
+    double psf_s = 0;                     ///< the lens's patterns; 0 when kept
+    bool kept = false;                    ///< patterns of an earlier frame served
+    bool fft = false;                     ///< else splats
+    std::int64_t sources = 0;             ///< pixels that clipped
+    int kernels = 0;                      ///< patterns: of the open lens, and of sources with their own
+    std::int64_t own_kernel_sources = 0;  ///< pixels that see the lens partly hidden, or are out of focus
     int wavelengths = 0;
     double cycles_per_px = 0;     ///< cycles of the pupil's diameter, at the mean wavelength
     double captured = 0;          ///< share of the light that the kernel's square catches

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/lens.h"
+#include "app/source_kernels.h"
 #include "app/stopwatch.h"
 
 namespace obscura {
@@ -13,6 +14,11 @@ OpticsSettings of_the_kernel(OpticsSettings optics) {
     const OpticsSettings d;
     optics.clip = d.clip;
     optics.bloom_scale = d.bloom_scale;
+    optics.visibility = d.visibility;
+    optics.visibility_samples = d.visibility_samples;
+    optics.neighbourhood_px = d.neighbourhood_px;
+    optics.focus_m = d.focus_m;
+    optics.focus_steps = d.focus_steps;
     optics.sensor_height_mm = d.sensor_height_mm;  // the size of a pixel says what matters of it
     return optics;
 }
@@ -68,7 +74,19 @@ void add_frame_glare(const Scene& scene, const Exec& exec, std::optional<KeptPsf
     }
     prepare_psf(scene, exec, kept, stats);
     GlareReport report;
-    spread_glare(frame.radiance.view(), {{&kept->kernel, 1}, {}}, params, exec, &report);
+    if (wants_source_kernels(scene.optics)) {
+        const Stopwatch own;
+        const SourceKernels own_kernels =
+            source_kernels(scene, frame, params.clip, lens_aperture(scene.optics), kept->kernel, exec);
+        stats.psf_s += own.seconds();
+        stats.kernels = static_cast<int>(own_kernels.kernels.size());
+        stats.own_kernel_sources = own_kernels.hidden_sources;
+        spread_glare(frame.radiance.view(), {own_kernels.kernels, own_kernels.choice.view()}, params, exec,
+                     &report);
+    } else {
+        stats.kernels = 1;
+        spread_glare(frame.radiance.view(), {{&kept->kernel, 1}, {}}, params, exec, &report);
+    }
     stats.sources = report.sources;
     stats.fft = report.fft;
     stats.spread = report.spread;

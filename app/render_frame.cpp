@@ -7,6 +7,7 @@
 
 #include "app/frame_shadows.h"
 #include "app/scene_build.h"
+#include "app/source_kernels.h"
 #include "app/stopwatch.h"
 #include "core/parallel.h"
 #include "raster/lighting.h"
@@ -170,10 +171,16 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
 
     const Stopwatch shade;
     const Region crop = crop_of(scene.render, options), whole{0, 0, scene.render.width, scene.render.height};
-    size_frame(scene.optics.enabled ? whole : crop, options, frame);
-    render_tiles(tiles, options, exec, frame);
+    // Glare comes from anywhere: it takes the whole picture, and what the pixels show where kernels differ.
+    FrameOptions wanted = options;
+    wanted.depth |= wants_source_kernels(scene.optics);
+    wanted.object |= wants_source_kernels(scene.optics);
+    size_frame(scene.optics.enabled ? whole : crop, wanted, frame);
+    render_tiles(tiles, wanted, exec, frame);
     frame.stats.tiles_s = shade.seconds();
     if (frame.complete) add_frame_glare(scene, exec, cache.psf, frame);
+    if (!options.depth) frame.depth_m = {};
+    if (!options.object) frame.object = {};
     crop_frame(crop, frame);
     frame.stats.total_s = total.seconds();
 }

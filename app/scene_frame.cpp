@@ -204,6 +204,11 @@ OpticsSettings optics_of(const SceneDocument& document, double frame) {
     o.tolerance = number(table, "tolerance");
     o.radius_px = static_cast<int>(integer(table, "radius_px"));
     o.bloom_scale = static_cast<int>(integer(table, "bloom_scale"));
+    o.visibility = choice<PupilVisibility>(table, "visibility", {"open", "exact", "neighbours"});
+    o.visibility_samples = static_cast<int>(integer(table, "visibility_samples"));
+    o.neighbourhood_px = static_cast<int>(integer(table, "neighbourhood_px"));
+    if (table.has("focus_m")) o.focus_m = number(table, "focus_m");
+    o.focus_steps = static_cast<int>(integer(table, "focus_steps"));
     set_lens(table, camera, render_settings_of(document), o);
     return o;
 }

@@ -7,7 +7,7 @@ namespace obscura {
 namespace {
 
 KeySpec rotation_key() {
-    return number_key("rotation_deg", "Turns the shape, clockwise as it is seen from the scene.")
+    return number_key("rotation_deg", "Turns the shape, clockwise as the photographer sees it.")
         .in({-36000, 36000})
         .or_else(OpticsSettings{}.rotation_deg)
         .animate();
@@ -112,6 +112,29 @@ std::vector<KeySpec> glare_keys() {
                     "at this fraction of the resolution.")
             .one_of({1, 2, 4, 8})
             .or_else(std::int64_t{d.bloom_scale}),
+        choice_key(
+            "visibility", {"open", "exact", "neighbours"},
+            "Which part of the lens the lamps see (objects whose material clips by itself). open: all of it. "
+            "exact: what the scene's triangles do not hide, from the point that each pixel shows. "
+            "neighbours: the pixels around the source stand for the lens, and those that do not clip "
+            "hide it; cheap, and right only for lamps far behind what hides them.")
+            .or_else("open"),
+        integer_key("visibility_samples", "Patterns per lamp at most; pixels share the most similar one.")
+            .in({1, 256})
+            .or_else(std::int64_t{d.visibility_samples}),
+        integer_key("neighbourhood_px", "With \"neighbours\": how far the lens reaches around a pixel.")
+            .in({1, 64})
+            .or_else(std::int64_t{d.neighbourhood_px}),
+        number_key(
+            "focus_m",
+            "Distance along the view axis that is sharp: sources before and behind it show the near field "
+            "of the aperture, with its rings. The picture itself stays sharp. Everything is in focus "
+            "when not given.")
+            .in({0, 1e9, true})
+            .animate(),
+        integer_key("focus_steps", "How many near fields at most, over the sources' range of 1 / distance.")
+            .in({1, 256})
+            .or_else(std::int64_t{d.focus_steps}),
     };
 }
 

@@ -31,6 +31,11 @@ void check_optics(const SceneTable& root, const Sources& sources) {
                     fmt::format("'{}': [camera] has said it with its focal_length_mm", key));
         }
     }
+    if (optics.has("focus_m") && text(optics, "visibility") != "open") {
+        fail_at(
+            place_of(optics, "focus_m"), sources,
+            "'focus_m' needs visibility = \"open\": patterns are out of focus or partly hidden, not both");
+    }
     if (place_of(optics, "temperature_kelvin").source >= 0 && text(optics, "light") != "blackbody") {
         fail_at(place_of(optics, "temperature_kelvin"), sources,
                 "'temperature_kelvin' needs light = \"blackbody\"");

@@ -120,7 +120,7 @@ struct OpticsSettings {
     Image<float> mask;              ///< of aperture "file", else empty
     int mask_px = 512;              ///< side of a shape's mask
     int blades = 7;                 ///< iris, whirl
-    double rotation_deg = 0;        ///< clockwise as light sees it on its way in
+    double rotation_deg = 0;        ///< clockwise, as the photographer sees it
     double bow = 0;                 ///< iris: 0 straight blades, 1 a circle
     double aspect = 1;              ///< box: height / width
     double obstruction = 0.3;       ///< annulus: of the diameter
@@ -137,9 +137,10 @@ struct OpticsSettings {
     int radius_px = 256;      ///< of the kernel
     int bloom_scale = 1;
     PupilVisibility visibility = PupilVisibility::open;
-    int visibility_samples = 16;  ///< per lamp, most
-    double focus_m = 0;           ///< bright points out of focus show their near field; 0: all is sharp
-    int focus_steps = 8;          ///< depths that have kernels of their own, most
+    int visibility_samples = 8;  ///< kernels per lamp, most
+    int neighbourhood_px = 4;    ///< neighbours: how far the pupil reaches around a source
+    double focus_m = 0;          ///< bright points out of focus show their near field; 0: all is sharp
+    int focus_steps = 8;         ///< depths that have kernels of their own, most
     friend bool operator==(const OpticsSettings&, const OpticsSettings&) = default;
 };
 

@@ -115,6 +115,8 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
             .value(c.near_m);
         const OpticsSettings& o = s.optics;
         h.value(o.rotation_deg).value(o.bow).value(o.aspect).value(o.obstruction).value(o.clip);
+        h.value(o.visibility).value(o.visibility_samples).value(o.neighbourhood_px);
+        h.value(o.focus_m).value(o.focus_steps);
         h.value(o.blades).value(o.vanes).value(o.slits).value(o.lines).value(o.rings);
         h.value(o.focal_length_mm).value(o.f_number).value(o.sensor_height_mm).value(o.temperature_kelvin);
         for (const Light& l : s.lights) {
@@ -320,7 +322,7 @@ TEST_F(SceneKeys, OfOpticsAreRead) {
                                 (variant.name == "file" ? "file = \"one.pgm\"\n" : "");
         expect_all_matter({own}, "optics.", optics_table().keys, {"aperture"});
         expect_all_matter({own}, "optics.", variant.keys);
-        animated.push_back(own + keyframes + "[[frames.optics]]\nframe = 1\nclip = 2\n" +
+        animated.push_back(own + "focus_m = 3\n" + keyframes + "[[frames.optics]]\nframe = 1\nclip = 2\n" +
                            "[[frames.optics]]\nframe = 4\nclip = 3\n");
         bases.push_back(own);
     }
