@@ -135,6 +135,20 @@ TEST(Quads, HardMasksComeBack) {
     EXPECT_GT(quads_of(noise.view()).size(), 64u * 64 * 3 / 4);
 }
 
+/// What reaches beyond the right and lower border cancels there: areas count all of every quad.
+TEST(Quads, AreasAddUp) {
+    std::mt19937 random(9);
+    const auto few = [&](int, int) { return static_cast<float>(random() % 4) / 4; };
+    for (const auto& [w, h] : {std::pair{128, 128}, {100, 37}, {3, 65}, {1, 7}}) {
+        const Mask mask = filled(w, h, few);
+        const QuadList quads = quads_of(mask.view());
+        double area = 0;
+        for (std::size_t k = 0; k < quads.size(); ++k)
+            area += static_cast<double>(quads.weight[k]) * quads.width[k] * quads.height[k];
+        EXPECT_EQ(area, open_area(mask.view())) << w << ' ' << h;
+    }
+}
+
 /// Table 3.1 at 256 ... 4096, decomposed at half the size, shaped once so that the last column fits: the
 /// others test.
 std::vector<int> counts(const ApertureShape& shape) {
