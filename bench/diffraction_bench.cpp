@@ -48,7 +48,16 @@ int bench_diffraction(const BenchOptions& options) {
     std::filesystem::create_directories(options.out, error);
     if (error) throw OutputError(fmt::format("{}: {}", options.out.string(), error.message()));
     DiffractionResults results;
-    results.rows = measure_far(plan, options);
+    for (const auto measure : {measure_far, measure_windows, measure_near}) {
+        for (DiffractionRow& row : measure(plan, options))
+            results.rows.push_back(std::move(row));
+    }
+    options.say("tables of the thesis");
+    results.controls = measure_controls(plan, options);
+    results.quads = measure_quads(plan, options);
+    results.culling = measure_culling(plan);
+    results.spectra = measure_spectra(plan);
+    results.quality = measure_quality(plan, options);
     write_diffraction_report(results, options);
     draw_diffraction_charts(results, options);
     options.say(fmt::format("written to {}", options.out.string()));

@@ -19,6 +19,7 @@ struct DiffractionBenchPlan {
     int control_size = 512;         ///< M of the sampled chirp
     int quality_size = 1024;        ///< N of SSIM and PSNR
     int most_samples = 128;         ///< per axis, of a true field too large to compute whole
+    int most_near_samples = 512;    ///< the same for near fields
     int whole_size = 1024;          ///< largest N whose true far field is computed whole
     double longest_ms = 800;        ///< methods expected to take longer are left out
     TimingPlan timing;

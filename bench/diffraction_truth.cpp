@@ -14,11 +14,10 @@ using Complex = std::complex<double>;
 /// factor(i, texel) of the i-th sample of an axis.
 using Factors = std::vector<std::vector<Complex>>;
 
-Factors far_factors(const std::vector<int>& samples, double first, double step, int texels,
-                    const Exec& exec) {
+Factors far_factors(const SampledAxis& samples, double first, double step, int texels, const Exec& exec) {
     Factors factors(samples.size());
     parallel_for(samples.size(), exec, [&](std::size_t i) {
-        const double frequency = first + samples[i] * step, angle = M_PI * frequency;
+        const double frequency = first + samples.indices[i] * step, angle = M_PI * frequency;
         const double sinc = frequency == 0 ? 1 : std::sin(angle) / angle;
         for (int x = 0; x < texels; ++x) {
             const double turns = frequency * (x + 0.5 - 0.5 * texels);
@@ -30,11 +29,11 @@ Factors far_factors(const std::vector<int>& samples, double first, double step, 
 
 /// Shares of the unobstructed wave that reach each sample through each texel: differences of Fresnel
 /// integrals.
-Factors near_factors(const std::vector<int>& samples, double first, double step, int texels, double turns,
+Factors near_factors(const SampledAxis& samples, double first, double step, int texels, double turns,
                      const Exec& exec) {
     Factors factors(samples.size());
     parallel_for(samples.size(), exec, [&](std::size_t i) {
-        const double at = first + samples[i] * step + 0.5 * texels, scale = 2 * std::sqrt(turns);
+        const double at = first + samples.indices[i] * step + 0.5 * texels, scale = 2 * std::sqrt(turns);
         FresnelValue before = fresnel_integral(scale * -at);
         for (int x = 0; x < texels; ++x) {
             const FresnelValue here = fresnel_integral(scale * (x + 1 - at));
@@ -82,18 +81,21 @@ FieldError error_over(const TrueField& truth,
                       const std::function<double(int x, int y, Complex exact)>& difference,
                       const std::function<double(int x, int y)>& power) {
     const double floor = 1e-10, unit2 = truth.unit * truth.unit;
-    double worst = 0, squares = 0;
+    double worst = 0, squares = 0, weights = 0;
     for (std::size_t j = 0; j < truth.rows.size(); ++j) {
         for (std::size_t i = 0; i < truth.columns.size(); ++i) {
             const Complex exact = truth.values[j * truth.columns.size() + i];
-            const double error = difference(truth.columns[i], truth.rows[j], exact);
+            const int x = truth.columns.indices[i], y = truth.rows.indices[j];
+            const double error = difference(x, y, exact);
             if (!(error <= worst)) worst = std::isfinite(error) ? error : INFINITY;
-            const double shown = std::max(power(truth.columns[i], truth.rows[j]) / unit2, floor);
+            const double shown = std::max(power(x, y) / unit2, floor);
             const double decades = std::log10(shown / std::max(std::norm(exact) / unit2, floor));
-            squares += decades * decades;
+            const double weight = truth.columns.weights[i] * truth.rows.weights[j];
+            squares += weight * decades * decades;
+            weights += weight;
         }
     }
-    const double rms = std::sqrt(squares / static_cast<double>(truth.values.size()));
+    const double rms = std::sqrt(squares / weights);
     return {worst / truth.unit, rms > 0 ? 20 * std::log10(10 / rms) : INFINITY};
 }
 
@@ -103,20 +105,23 @@ Complex value_at(const Field& field, int x, int y) {
 
 }  // namespace
 
-std::vector<int> sampled_indices(int count, int middle, int most) {
+SampledAxis sampled_axis(int count, int middle, int most) {
     const int step = count <= most ? 1 : (2 * count / most) | 1;
-    std::vector<int> indices;
+    SampledAxis axis;
     for (int i = 0; i < count; ++i) {
-        if (step == 1 || std::abs(i - middle) <= most / 4 || i % step == 0) indices.push_back(i);
+        const bool near_middle = std::abs(i - middle) <= most / 4;
+        if (!near_middle && i % step != 0) continue;
+        axis.indices.push_back(i);
+        axis.weights.push_back(near_middle ? 1 : step);
     }
-    return indices;
+    return axis;
 }
 
 TrueField true_far_field(ImageView<const float> mask, const FrequencyGrid& grid, int most_columns,
                          int most_rows, const Exec& exec) {
     TrueField truth;
-    truth.columns = sampled_indices(grid.width, static_cast<int>(-grid.first_u / grid.step_u), most_columns);
-    truth.rows = sampled_indices(grid.height, static_cast<int>(-grid.first_v / grid.step_v), most_rows);
+    truth.columns = sampled_axis(grid.width, static_cast<int>(-grid.first_u / grid.step_u), most_columns);
+    truth.rows = sampled_axis(grid.height, static_cast<int>(-grid.first_v / grid.step_v), most_rows);
     truth.values =
         separable_sum(mask, far_factors(truth.columns, grid.first_u, grid.step_u, mask.width, exec),
                       far_factors(truth.rows, grid.first_v, grid.step_v, mask.height, exec), exec);
@@ -131,8 +136,8 @@ TrueField true_far_field(ImageView<const float> mask, const FrequencyGrid& grid,
 TrueField true_near_field(ImageView<const float> mask, const PlaneGrid& grid, double turns, int most,
                           const Exec& exec) {
     TrueField truth;
-    truth.columns = sampled_indices(grid.width, grid.width / 2, most);
-    truth.rows = sampled_indices(grid.height, grid.height / 2, most);
+    truth.columns = sampled_axis(grid.width, grid.width / 2, most);
+    truth.rows = sampled_axis(grid.height, grid.height / 2, most);
     truth.values =
         separable_sum(mask, near_factors(truth.columns, grid.first_x, grid.step, mask.width, turns, exec),
                       near_factors(truth.rows, grid.first_y, grid.step, mask.height, turns, exec), exec);

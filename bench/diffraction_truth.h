@@ -12,16 +12,22 @@
 
 namespace obscura {
 
-/// A field at some columns and rows of a grid; element [j * columns.size() + i] is that at columns[i],
-/// rows[j].
-struct TrueField {
-    std::vector<int> columns, rows;
-    std::vector<std::complex<double>> values;
-    double unit = 1;  ///< amplitude that errors are shares of
+/// Some indices of an axis; each stands for `weight` of them.
+struct SampledAxis {
+    std::vector<int> indices;
+    std::vector<double> weights;
+    std::size_t size() const { return indices.size(); }
 };
 
 /// All of `count` indices, or about `most` of them: those around `middle`, and others in odd steps.
-std::vector<int> sampled_indices(int count, int middle, int most);
+SampledAxis sampled_axis(int count, int middle, int most);
+
+/// A field at some columns and rows of a grid; element [j * columns.size() + i] is that at columns i, rows j.
+struct TrueField {
+    SampledAxis columns, rows;
+    std::vector<std::complex<double>> values;
+    double unit = 1;  ///< amplitude that errors are shares of
+};
 
 /// unit = the open area. About most_columns x most_rows pixels.
 TrueField true_far_field(ImageView<const float> mask, const FrequencyGrid& grid, int most_columns,

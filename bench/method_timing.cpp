@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "core/error.h"
@@ -41,10 +42,9 @@ void examine(MethodJob& job) {
     }
 }
 
-}  // namespace
-
-std::vector<DiffractionRow> time_methods(std::vector<MethodJob> jobs, const DiffractionBenchPlan& plan,
-                                         std::vector<MethodPast>& past) {
+/// Rows of the jobs of one number of threads.
+std::vector<DiffractionRow> time_once(std::vector<MethodJob> jobs, const DiffractionBenchPlan& plan,
+                                      std::vector<MethodPast>& past) {
     std::vector<TimedJob> timed;
     for (MethodJob& job : jobs) {
         if (job.row.problem.empty()) job.row.problem = left_out(job.row, plan, past);
@@ -62,6 +62,33 @@ std::vector<DiffractionRow> time_methods(std::vector<MethodJob> jobs, const Diff
         rows.push_back(std::move(job.row));
     }
     return rows;
+}
+
+}  // namespace
+
+std::vector<DiffractionRow> time_methods(const std::vector<int>& threads,
+                                         const std::function<std::vector<MethodJob>(std::size_t t)>& jobs_of,
+                                         const DiffractionBenchPlan& plan, std::vector<MethodPast>& past) {
+    std::vector<DiffractionRow> all;
+    for (std::size_t t = 0; t < threads.size(); ++t) {
+        std::vector<MethodJob> jobs = jobs_of(t);
+        for (std::size_t i = 0; t > 0 && i < jobs.size(); ++i) {
+            CHECK(jobs[i].row.method == all[i].method);
+            jobs[i].examine = {};
+            jobs[i].row.error = all[i].error;
+            jobs[i].row.log_psnr_db = all[i].log_psnr_db;
+            jobs[i].row.problem = all[i].problem;
+        }
+        const std::vector<DiffractionRow> rows = time_once(std::move(jobs), plan, past);
+        all.insert(all.end(), rows.begin(), rows.end());
+    }
+    return all;
+}
+
+double milliseconds_of(const std::function<void()>& run) {
+    const auto start = std::chrono::steady_clock::now();
+    run();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace obscura
