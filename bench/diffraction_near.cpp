@@ -175,6 +175,9 @@ std::vector<ControlRow> measure_controls(const DiffractionBenchPlan& plan, const
     auto run = near_run("heptagon", plan.control_size, options);
     CHECK(run.has_value());
     run->exec.threads = 1;
+#ifdef OBSCURA_HAS_FFTW
+    NearPeer peer(plan.control_size, 2, 1);
+#endif
     for (const double fresnel : {1.0, 10.0, 50.0}) {
         run->place(fresnel, plan.control_size);
         ControlRow row;
@@ -184,7 +187,6 @@ std::vector<ControlRow> measure_controls(const DiffractionBenchPlan& plan, const
                                              NearFieldMethod::hybrid, NearFieldMethod::fft})
             row.our_error = std::max(row.our_error, our_job(*run, method).examine().amplitude);
 #ifdef OBSCURA_HAS_FFTW
-        NearPeer peer(plan.control_size, 2, 1);
         for (double* error : {&row.integrated_error, &row.sampled_error}) {
             peer.kernel = error == &row.sampled_error ? ChirpKernel::sampled : ChirpKernel::integrated;
             std::vector<MethodJob> jobs;

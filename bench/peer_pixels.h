@@ -1,6 +1,10 @@
 #pragma once
 // What follows an FFT on its way to pixels, at the speed that each machine allows: the peer's loops, too, are
 // compiled once per instruction set. Complex numbers: real and imaginary parts by turns. POD.
+//
+// Bits of multiply_row differ between instruction sets: g++ 12 makes vfmaddsub of products of interleaved
+// complex numbers even where -ffp-contract=off. A peer may have that; our own kernels, which may not, keep
+// real and imaginary parts apart.
 
 #include <cstdint>
 
