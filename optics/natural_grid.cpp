@@ -24,14 +24,14 @@ std::optional<NaturalAxis> natural_axis(int extent, double first, double step, i
 /// cos and sin of 2 pi k / length, k = 0 to length - 1, length a power of two: one eighth is computed, the
 /// rest are its mirror images, so that opposite roots are exactly opposite.
 struct DoubleRoots {
-    std::vector<double> cos, sin;
+    std::vector<double> cosine, sine;
     explicit DoubleRoots(int length);
     std::size_t index(std::int64_t k) const {
-        return static_cast<std::size_t>(k & (static_cast<std::int64_t>(cos.size()) - 1));
+        return static_cast<std::size_t>(k & (static_cast<std::int64_t>(cosine.size()) - 1));
     }
 };
 
-DoubleRoots::DoubleRoots(int length) : cos(static_cast<std::size_t>(length)), sin(cos.size()) {
+DoubleRoots::DoubleRoots(int length) : cosine(static_cast<std::size_t>(length)), sine(cosine.size()) {
     const auto eighth_of = [&](int k, double& c, double& s) {
         const double angle = 2 * num::pi * k / length;
         c = num::cos(angle);
@@ -43,18 +43,18 @@ DoubleRoots::DoubleRoots(int length) : cos(static_cast<std::size_t>(length)), si
         double c = 0, s = 0;
         eighth_of(k, c, s);
         const auto near = static_cast<std::size_t>(k), far = static_cast<std::size_t>(quarter - k);
-        cos[near] = c;
-        sin[near] = s;
+        cosine[near] = c;
+        sine[near] = s;
         if (length < 4) break;
-        cos[far] = s;
-        sin[far] = c;
+        cosine[far] = s;
+        sine[far] = c;
     }
-    if (length == 2) cos[1] = -1;
+    if (length == 2) cosine[1] = -1;
     // Quarter by quarter: cos(k + quarter) = -sin(k), sin(k + quarter) = cos(k).
     for (int k = quarter + 1; length >= 4 && k < length; ++k) {
         const auto at = static_cast<std::size_t>(k), from = static_cast<std::size_t>(k - quarter);
-        cos[at] = 0 - sin[from];
-        sin[at] = cos[from];
+        cosine[at] = 0 - sine[from];
+        sine[at] = cosine[from];
     }
 }
 
@@ -87,8 +87,8 @@ AxisFactors texel_factors(const NaturalAxis& axis, int extent) {
     for (int k = 0; k < axis.count; ++k) {
         const std::int64_t index = axis.first + k;
         const std::size_t shift = roots.index(index * (extent - 1));
-        const double sinc = index == 0 ? 1 : roots.sin[roots.index(index)] / (num::pi * frequency(axis, k));
-        factors.set(k, sinc * roots.cos[shift], sinc * roots.sin[shift]);
+        const double sinc = index == 0 ? 1 : roots.sine[roots.index(index)] / (num::pi * frequency(axis, k));
+        factors.set(k, sinc * roots.cosine[shift], sinc * roots.sine[shift]);
     }
     return factors;
 }
@@ -101,17 +101,17 @@ AxisFactors edge_factors(const NaturalAxis& axis, int extent) {
         const std::size_t shift = roots.index(index * extent);
         // 1 / i = -i
         const double size = index == 0 ? 0 : 1 / (2 * num::pi * frequency(axis, k));
-        factors.set(k, size * roots.sin[shift], -size * roots.cos[shift]);
+        factors.set(k, size * roots.sine[shift], -size * roots.cosine[shift]);
     }
     return factors;
 }
 
 UnitRoots unit_roots(int log2_length) {
     const DoubleRoots exact(1 << log2_length);
-    UnitRoots roots{std::vector<float>(exact.cos.size()), std::vector<float>(exact.cos.size())};
-    for (std::size_t k = 0; k < exact.cos.size(); ++k) {
-        roots.re[k] = static_cast<float>(exact.cos[k]);
-        roots.im[k] = static_cast<float>(-exact.sin[k]);
+    UnitRoots roots{std::vector<float>(exact.cosine.size()), std::vector<float>(exact.cosine.size())};
+    for (std::size_t k = 0; k < exact.cosine.size(); ++k) {
+        roots.re[k] = static_cast<float>(exact.cosine[k]);
+        roots.im[k] = static_cast<float>(-exact.sine[k]);
     }
     return roots;
 }
