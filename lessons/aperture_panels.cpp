@@ -63,4 +63,21 @@ void draw_quads(Figure& f, Vec2d origin, double texel, const QuadList& quads) {
     }
 }
 
+void draw_outline(Figure& f, Vec2d origin, double texel, const Outline& outline, const Pen& pen) {
+    for (std::vector<Vec2d> loop : outline.loops) {
+        loop.push_back(loop.front());
+        for (Vec2d& p : loop)
+            p = origin + p * texel;
+        f.polyline(loop, pen);
+    }
+}
+
+void shade_row(Figure& f, const Plot& plot, ImageView<const float> mask, int row) {
+    for (int x = 0; x < mask.width; ++x) {
+        const Vec2d top = plot.at(static_cast<double>(x) / mask.width - 0.5, 1),
+                    end = plot.at(static_cast<double>(x + 1) / mask.width - 0.5, 0);
+        f.fill({top.x, top.y, end.x - top.x, end.y - top.y}, ink::grid, static_cast<double>(mask(x, row)));
+    }
+}
+
 }  // namespace obscura

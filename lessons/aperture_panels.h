@@ -30,4 +30,10 @@ constexpr Rgb8 positive_quad = ink::blue, negative_quad = ink::red;
 /// Every quad by its sign, `texel` pixels to a texel, rimmed with paper from 4 pixels' side on.
 void draw_quads(Figure& f, Vec2d origin, double texel, const QuadList& quads);
 
+/// Loops of an outline, `texel` pixels to a texel, the mask's upper left corner at `origin`.
+void draw_outline(Figure& f, Vec2d origin, double texel, const Outline& outline, const Pen& pen);
+
+/// A row of the mask as grey from 0 to 1 of the plot's y, by its openness; x in widths of the mask.
+void shade_row(Figure& f, const Plot& plot, ImageView<const float> mask, int row);
+
 }  // namespace obscura

@@ -19,5 +19,6 @@ Image<Rgb8> lesson_7_recursion(const Exec& exec);
 Image<Rgb8> lesson_8_lookups(const Exec& exec);
 Image<Rgb8> lesson_9_quads(const Exec& exec);
 Image<Rgb8> lesson_10_adding_quads(const Exec& exec);
+Image<Rgb8> lesson_11_near_to_far(const Exec& exec);
 
 }  // namespace obscura

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "lessons/aperture_panels.h"
 #include "lessons/figure.h"
 #include "lessons/ladder.h"
@@ -114,14 +115,13 @@ void draw_work(Figure& f, int side, const Box& box, Isa isa) {
 
 Image<Rgb8> lesson_10_adding_quads(const Exec& exec) {
     Figure f(lesson_width, lesson_height);
-    f.heading(
-        10, "Adding quads",
-        "The far field of a rectangle is known in closed form; the largest first, they add up to that of "
-        "the aperture.");
+    f.heading(10, "Adding quads",
+              "Far fields of rectangles are closed forms: added up, that of an aperture.");
     const Image<float> mask = binary_mask(ApertureKind::iris, mask_texels);
     const FrequencyGrid grid = centred_grid(pixels, pixels, 1.0 / (2 * pixels));
-    const Sum sum{grid, largest_first(quads_of(mask.view())), field_of_runs(mask.view(), grid, exec),
-                  open_area(mask.view())};
+    const QuadList quads = largest_first(quads_of(mask.view()));
+    const Sum sum{grid, quads, field_of_quads(quads, grid, exec), open_area(mask.view())};
+    CHECK(largest_difference(sum.full, field_of_runs(mask.view(), grid, exec)) < 1e-6 * sum.area);
     const std::size_t counts[] = {1, 4, 16, 64, sum.quads.size()};
     for (int i = 0; i < 5; ++i)
         draw_sum(f, sum, counts[i], {40 + 316.0 * i, 132}, exec);

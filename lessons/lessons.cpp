@@ -10,7 +10,7 @@
 namespace obscura {
 namespace {
 
-const std::array<LessonInfo, 10> infos{{
+const std::array<LessonInfo, 11> infos{{
     {1, "Edge functions", "which texels a triangle covers, and who owns a sample on a shared edge"},
     {2, "Depth", "one plane per face, the nearest of two surfaces, and why depth is monotone and clamped"},
     {3, "Layers", "every crossing of a ray with solids and sheets, in order"},
@@ -21,12 +21,14 @@ const std::array<LessonInfo, 10> infos{{
     {8, "Lookups", "steps down the tree for a kernel: each texel by itself, or all together"},
     {9, "Quads of an aperture", "an aperture as few signed rectangles, level by level from its texels up"},
     {10, "Adding quads", "the far field as a sum of closed forms, largest quads first, and what it costs"},
+    {11, "From near to far",
+     "fringes along a shadow's edge become the far field; the bright spot behind a disc"},
 }};
 
 constexpr std::array drawings{lesson_1_edge_functions, lesson_2_depth,        lesson_3_layers,
                               lesson_4_intervals,      lesson_5_mode_of_four, lesson_6_tree,
                               lesson_7_recursion,      lesson_8_lookups,      lesson_9_quads,
-                              lesson_10_adding_quads};
+                              lesson_10_adding_quads,  lesson_11_near_to_far};
 static_assert(drawings.size() == std::tuple_size_v<decltype(infos)>);
 
 }  // namespace

@@ -78,6 +78,13 @@ void decade_curve(Figure& f, const Plot& plot, const std::vector<double>& values
     f.polyline(line, pen);
 }
 
+void level_lines(Figure& f, const Plot& plot, std::initializer_list<int> levels) {
+    for (const int y : levels) {
+        f.line(plot.at(plot.x0, y), plot.at(plot.x1, y), {ink::grid, 1});
+        f.text(plot.at(plot.x0, y) + Vec2d{-8, 4}, fmt::format("{}", y), {8.5, ink::soft, Align::right});
+    }
+}
+
 void axis_numbers(Figure& f, const Plot& plot, std::initializer_list<double> numbers, int decimals) {
     for (const double x : numbers)
         f.text(plot.at(x, plot.y0) + Vec2d{0, 18}, fmt::format("{:.{}f}", x, decimals), lettering::tick);

@@ -34,6 +34,9 @@ void decade_axes(Figure& f, const Plot& plot, bool x_too, std::string_view x_nam
 /// log10 of values at equal steps from plot.x0 to plot.x1, drawn no lower than plot.y0.
 void decade_curve(Figure& f, const Plot& plot, const std::vector<double>& values, const Pen& pen);
 
+/// Lines across the plot, with their numbers left of it.
+void level_lines(Figure& f, const Plot& plot, std::initializer_list<int> levels);
+
 /// Numbers below the horizontal axis.
 void axis_numbers(Figure& f, const Plot& plot, std::initializer_list<double> numbers, int decimals);
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -24,6 +25,7 @@
 #include "core/image_io.h"
 #include "hierarchy/build.h"
 #include "lessons/aperture_panels.h"
+#include "lessons/plane_fields.h"
 #include "lessons/quad_fields.h"
 #include "lessons/tree_scene.h"
 
@@ -32,9 +34,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array golden{
-    "2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "7c9c081cfe7aeee7", "da4e1855356c3fdd",
-    "58e38df2aa3009e6", "bad0f240905ab4ef", "978e552047151592", "1dd6abca9eac4735", "14a01f151888a679"};
+constexpr std::array golden{"2b80deeaca7a1f64",
+                            "c1edc3458efbb83c",
+                            "415f018f5fd1ffd8",
+                            "7c9c081cfe7aeee7",
+                            "da4e1855356c3fdd",
+                            "58e38df2aa3009e6",
+                            "bad0f240905ab4ef",
+                            "978e552047151592",
+                            "1dd6abca9eac4735",
+                            "e7497af5c1d1ff89",
+                            "bb4e9518dd83ec37"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
@@ -174,6 +184,28 @@ TEST(Lessons, LessonTensQuadsAddUpToTheRuns) {
         before = error;
     }
     EXPECT_LT(largest_difference(field_of_quads(quads, grid, {}), full), 1e-6 * area);
+}
+
+/// Lesson 11: 4 sin^2(pi N / 2) behind the opening, 1 behind the disc, and the far field in the end, ever
+/// closer.
+TEST(Lessons, LessonElevensLightComesAndGoes) {
+    const Aperture circle = full_aperture(ApertureKind::circle, 256);
+    for (const double n : {0.5, 1.0, 2.0, 2.5, 3.0, 4.0}) {
+        const OnAxis light = on_axis(circle, n, {});
+        const double s = std::sin(0.5 * M_PI * n);
+        EXPECT_NEAR(light.opening, 4 * s * s, 0.01) << n;
+        EXPECT_NEAR(light.disc, 1, 0.01) << n;
+    }
+    const Aperture heptagon = full_aperture(ApertureKind::iris, 64);
+    double before = 4;
+    for (const double n : {0.8, 0.2, 0.05}) {
+        const PlaneGrid plane = centred_plane(32, 2.4 / n * 64);
+        const Image<float> near = near_field_intensity(heptagon, plane, at_fresnel_number(heptagon, n), {});
+        const double error = share_of_peak(near, far_intensity(heptagon, plane, n, {}));
+        EXPECT_LT(error, before / 8) << n;
+        before = error;
+    }
+    EXPECT_LT(before, 1 / 400.0);
 }
 
 TEST(Lessons, AnUnknownNumberIsAUsageError) {
