@@ -219,7 +219,7 @@ void spread_glare(ImageView<Vec3f> radiance, const GlareKernels& kernels, const 
     if (told.sources > 0) {
         told.reason = reason_text(told.sources, used, sum_of_plans, kernels.kernels[0].width, params);
         told.spread = 1 - total.stayed / total.light;
-        told.lost = total.lost / total.light;
+        told.lost = std::max(total.lost / total.light, 0.0);  // rounding may tip it
     }
     if (report != nullptr) *report = told;
 }
