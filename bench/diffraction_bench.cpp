@@ -28,7 +28,6 @@ DiffractionBenchPlan diffraction_bench_plan(bool quick, int rounds) {
     plan.window_sizes = {256, 512, 1024, 2048};
     plan.near_sizes = {512, 1024, 2048};
     plan.padded_sizes = {512};
-    plan.timing.budget_ms = 250;
     return plan;
 }
 
@@ -54,7 +53,7 @@ int bench_diffraction(const BenchOptions& options) {
     }
     options.say("tables of the thesis");
     results.controls = measure_controls(plan, options);
-    results.quads = measure_quads(plan, options);
+    results.quads = measure_quads(plan);
     results.culling = measure_culling(plan);
     results.spectra = measure_spectra(plan);
     results.quality = measure_quality(plan, options);

@@ -18,10 +18,10 @@ struct DiffractionBenchPlan {
     std::vector<int> padded_sizes;  ///< M at which FFTW convolves with 8-fold padding, too
     int control_size = 512;         ///< M of the sampled chirp
     int quality_size = 1024;        ///< N of SSIM and PSNR
-    int most_samples = 128;         ///< per axis, of a true field too large to compute whole
+    int most_samples = 256;         ///< per axis, of a true field too large to compute whole
     int most_near_samples = 512;    ///< the same for near fields
     int whole_size = 1024;          ///< largest N whose true far field is computed whole
-    double longest_ms = 800;        ///< methods expected to take longer are left out
+    double longest_ms = 500;        ///< methods expected to take longer are left out
     TimingPlan timing;
 };
 DiffractionBenchPlan diffraction_bench_plan(bool quick, int rounds);
@@ -44,7 +44,7 @@ std::vector<DiffractionRow> measure_near(const DiffractionBenchPlan& plan, const
 /// Errors at Fresnel numbers 1, 10 and 50. Nothing without FFTW.
 std::vector<ControlRow> measure_controls(const DiffractionBenchPlan& plan, const BenchOptions& options);
 
-std::vector<QuadRow> measure_quads(const DiffractionBenchPlan& plan, const BenchOptions& options);
+std::vector<QuadRow> measure_quads(const DiffractionBenchPlan& plan);
 std::vector<CullRow> measure_culling(const DiffractionBenchPlan& plan);
 std::vector<SpectralRow> measure_spectra(const DiffractionBenchPlan& plan);
 std::vector<QualityRow> measure_quality(const DiffractionBenchPlan& plan, const BenchOptions& options);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bench/diffraction_report.h"
@@ -46,7 +47,7 @@ std::string tics_of(const std::vector<DiffractionRow>& rows, const std::string& 
     }
     std::string tics;
     for (const auto& [size, _] : sizes)
-        tics += fmt::format("{}'{}' {}", tics.empty() ? "set xtics (" : ", ", size, size);
+        tics += fmt::format("{}'{}' {}", tics.empty() ? "set xtics nomirror (" : ", ", size, size);
     return tics.empty() ? tics
                         : tics + fmt::format(")\nset xrange [{}:{}]", 0.8 * sizes.begin()->first,
                                              1.25 * sizes.rbegin()->first);
@@ -54,6 +55,18 @@ std::string tics_of(const std::vector<DiffractionRow>& rows, const std::string& 
 
 double time_of(const DiffractionRow& row) {
     return row.time.least_ms;
+}
+
+/// The same axis for all panels.
+std::string y_range(const std::vector<Panel>& panels) {
+    double least = INFINITY, largest = 0;
+    for (const Panel& panel : panels) {
+        for (const PanelLine& line : panel.lines) {
+            for (const PanelPoint& p : line.points)
+                least = std::min(least, p.y), largest = std::max(largest, p.y);
+        }
+    }
+    return largest > 0 ? fmt::format("\nset yrange [{:.3g}:{:.3g}]", 0.6 * least, 1.6 * largest) : "";
 }
 
 PanelChart chart_of(const char* title, const char* note, std::vector<Panel> panels) {
@@ -73,21 +86,26 @@ PanelChart time_chart(const std::vector<DiffractionRow>& rows, const std::string
                   {[](const DiffractionRow& row) { return static_cast<double>(row.size); }, time_of}));
     chart.x_label = x_label;
     chart.y_label = "milliseconds";
-    chart.x_tics = tics_of(rows, part);
+    chart.x_tics = tics_of(rows, part) + y_range(chart.panels);
     return chart;
 }
 
-PanelChart error_chart(const std::vector<DiffractionRow>& rows) {
+/// Error against time, the goal as a broken line.
+PanelChart error_chart(const std::vector<DiffractionRow>& rows, const char* part, const char* title,
+                       const char* y_label, double goal) {
     const auto known = rows_where(rows, [](const DiffractionRow& row) { return row.same_function; });
     PanelChart chart =
-        chart_of("Far field: error against time",
-                 "One point per size, N = 256 and doublings from left to right. Further left is faster, "
-                 "further down is "
-                 "more accurate. One thread.",
-                 panels_of(known, far_part, {time_of, [](const DiffractionRow& row) { return row.error; }}));
+        chart_of(title,
+                 "A point per size, doubled from left to right. Further left is faster, further down is more "
+                 "accurate. "
+                 "Broken line: the goal. One thread.",
+                 panels_of(known, part, {time_of, [](const DiffractionRow& row) { return row.error; }}));
     chart.x_label = "milliseconds";
-    chart.y_label = "largest amplitude error, share of F(0, 0)";
-    chart.x_tics = "set format x '%g'\nset format y '10^{%T}'\nset yrange [1e-8:2e-6]";
+    chart.y_label = y_label;
+    chart.x_tics = fmt::format(
+        "set format x '%g'\nset format y '%.0e'\nset yrange [5e-9:4e-6]\n"
+        "set arrow 1 from graph 0, first {0:g} to graph 1, first {0:g} nohead dt 2 lc rgb '#888888'",
+        goal);
     return chart;
 }
 
@@ -133,7 +151,12 @@ void draw_diffraction_charts(const DiffractionResults& results, const BenchOptio
                    "logarithmic.",
                    "N, texels a side of the image"),
         "diffraction_time.svg");
-    draw(error_chart(rows), "diffraction_error.svg");
+    draw(error_chart(rows, far_part, "Far field: error against time",
+                     "largest amplitude error, share of F(0, 0)", 1e-6),
+         "diffraction_error.svg");
+    draw(error_chart(rows, near_part, "Near field: error against time",
+                     "largest error, share of the unit wave", 2e-6),
+         "diffraction_near_error.svg");
     draw(
         time_chart(rows, window_part, "Windows of finer frequencies: time against size",
                    "Steps a quarter of the half plane's, one thread. Lower is better; both axes logarithmic.",

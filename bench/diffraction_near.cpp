@@ -157,7 +157,7 @@ std::vector<DiffractionRow> measure_near(const DiffractionBenchPlan& plan, const
         Peers peers, padded;
         for (const int threads : options.threads) {
             peers.push_back(std::make_unique<NearPeer>(size, 2, threads));
-            if (pads) padded.push_back(std::make_unique<NearPeer>(size, 8, threads));
+            if (pads && threads == 1) padded.push_back(std::make_unique<NearPeer>(size, 8, threads));
         }
         for (const std::string& name : chosen_apertures(options)) {
             auto run = near_run(name, size, options);

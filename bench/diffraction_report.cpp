@@ -204,12 +204,13 @@ std::string diffraction_markdown(const DiffractionResults& results, const BenchO
                "steps a quarter as wide as the half plane's, off the centre. FFTW pads the mask to 4 times "
                "its side. Sizes are those of the image, N; masks have N / 2 texels a side.\n\n",
                {fftw_padded_name});
-    write_part(
-        out, results.rows, near_part,
-        "\n## Near field\n\n![chart](diffraction_near.svg)\n\nFresnel number 10, as many pixels as the "
-        "mask has texels, over the mask's square. FFTW: linear convolution with the integrated chirp, "
-        "whose spectrum is made before. Errors in shares of the unobstructed wave.\n\n",
-        {fftw_near_name});
+    write_part(out, results.rows, near_part,
+               "\n## Near "
+               "field\n\n![chart](diffraction_near.svg)\n\n![chart](diffraction_near_error.svg)\n\nFresnel "
+               "number 10, as many pixels as the "
+               "mask has texels, over the mask's square. FFTW: linear convolution with the integrated chirp, "
+               "whose spectrum is made before. Errors in shares of the unobstructed wave.\n\n",
+               {fftw_near_name});
     write_controls(out, results.controls);
     text += thesis_markdown(results);
     return text;

@@ -36,8 +36,8 @@ std::optional<MethodStyle> diffraction_style(const std::string& method);
 /// Writes diffraction.md and diffraction.csv into options.out. Throws OutputError.
 void write_diffraction_report(const DiffractionResults& results, const BenchOptions& options);
 
-/// Writes diffraction_{time,error,window,near}.svg, those that have something to show. Without gnuplot says
-/// so and draws nothing.
+/// Writes diffraction_{time,error,window,near,near_error}.svg, those that have something to show. Without
+/// gnuplot says so and draws nothing.
 void draw_diffraction_charts(const DiffractionResults& results, const BenchOptions& options);
 
 }  // namespace obscura

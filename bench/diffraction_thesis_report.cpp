@@ -29,8 +29,10 @@ void write_quads(Out out, const std::vector<QuadRow>& rows) {
     if (rows.empty()) return;
     fmt::format_to(
         out,
-        "\n### Quads (Table 3.1)\n\nCounts depend on how the shape lies on the grid, which the thesis "
-        "does not say; their growth does not. Aggressive: one level coarser.\n\n"
+        "\n### Quads (Table 3.1)\n\nCounts depend on the shape's size and on how it lies on the grid, "
+        "which the thesis does not say: one size and place per aperture was chosen to match, for all N "
+        "alike. "
+        "Aggressive: one level coarser.\n\n"
         "| aperture | N | finest | aggressive | thesis, finest | ours / thesis |\n"
         "|---|--:|--:|--:|--:|--:|\n");
     for (const QuadRow& row : rows) {
@@ -131,7 +133,7 @@ void write_near(Out out, const std::vector<DiffractionRow>& rows) {
     fmt::format_to(
         out,
         "\n### Near field (Table 3.4)\n\nWhirl, one thread. FFTW with the sampled chirp and 8-fold "
-        "padding does what the thesis's GPU-NFD does; where it is left out its arrays are too large.\n\n"
+        "padding does what the thesis's GPU-NFD does; one size shows it.\n\n"
         "| M | ms, ours | FFTW, 2x padded / ours | FFTW, 8x padded / ours | thesis: CPU-FrFT / theirs "
         "| GPU-NFD / theirs |\n|--:|--:|--:|--:|--:|--:|\n{}",
         table);

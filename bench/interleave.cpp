@@ -38,7 +38,7 @@ std::vector<Timing> time_interleaved(const std::vector<TimedJob>& jobs, const Ti
     for (int round = 0; round < plan.rounds; ++round) {
         for (std::size_t turn = 0; turn < jobs.size(); ++turn) {
             const std::size_t i = round % 2 == 0 ? turn : jobs.size() - 1 - turn;
-            if (round == 0 || clocks[i].spent_ms < plan.budget_ms) take_turn(jobs[i], plan, clocks[i]);
+            if (round < 2 || clocks[i].spent_ms < plan.budget_ms) take_turn(jobs[i], plan, clocks[i]);
         }
     }
     std::vector<Timing> timings;

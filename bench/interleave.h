@@ -15,7 +15,7 @@ struct TimedJob {
 struct TimingPlan {
     int rounds = 5;          ///< turns of each job
     double turn_ms = 2;      ///< a turn of a short job: calls until this is spent, one at least
-    double budget_ms = 500;  ///< a job that has spent this rests; every job gets its first turn
+    double budget_ms = 150;  ///< a job that has spent this rests; every job gets two turns
 };
 
 struct Timing {

@@ -58,11 +58,12 @@ std::string key_strip(const PanelChart& chart, double bottom, double height) {
         }
     }
     return fmt::format(
-        "unset logscale\nunset border\nunset tics\nunset grid\nset origin 0,{:.4f}\nset size 1,{:.4f}\n"
+        "unset logscale\nunset arrow\nunset border\nunset tics\nunset grid\nset origin 0,{:.4f}\nset size "
+        "1,{:.4f}\n"
         "set lmargin at screen 0.04\nset rmargin at screen 0.98\nset key center center horizontal maxrows 2 "
-        "samplen 2\n{}\nunset key\nunset label\nset lmargin -1\nset rmargin -1\nset border 3\nset tics "
-        "nomirror\n"
-        "set logscale xy\nset grid lt 1 lc rgb '#dddddd' lw 0.6\n{}\n",
+        "samplen 2\n{}\nunset key\nunset label\nset lmargin -1\nset rmargin -1\nset border 3\n"
+        "set xtics nomirror\nset ytics nomirror\nset logscale xy\nset grid lt 1 lc rgb '#dddddd' lw "
+        "0.6\n{}\n",
         bottom, height, plot, chart.x_tics);
 }
 

@@ -25,6 +25,9 @@ fftwf_complex* complex_of(const Floats& memory) {
     return reinterpret_cast<fftwf_complex*>(memory.get());
 }
 
+/// Of one plan; then the best so far is taken.
+constexpr double longest_planning_s = 10;
+
 /// FFTW's parallel loops, as items of ours.
 void run_jobs(void* (*work)(char*), char* jobs, std::size_t bytes, int count, void*) {
     parallel_for(static_cast<std::size_t>(count), Exec{best_isa(), count},
@@ -35,6 +38,7 @@ void plan_for(int threads) {
     static const bool ready = [] {
         const bool started = fftwf_init_threads() != 0;
         fftwf_threads_set_callback(run_jobs, nullptr);
+        fftwf_set_timelimit(longest_planning_s);
         return started;
     }();
     CHECK(ready);

@@ -1,6 +1,6 @@
 #pragma once
 // FFTW in single precision: the peer of the diffraction bench. Plans are measured (FFTW_MEASURE), which takes
-// seconds for large sizes; on several threads its loops run on the pool of core/parallel.h.
+// seconds for large sizes, ten at most; on several threads its loops run on the pool of core/parallel.h.
 // Only in builds that found FFTW (OBSCURA_HAS_FFTW).
 
 #include <cstddef>

@@ -45,12 +45,10 @@ TEST(Interleaving, TakesTurnsInBothOrders) {
               "ab");
     ASSERT_EQ(timings.size(), 2u);
     EXPECT_EQ(timings[0].calls, 3);
-    plan.budget_ms = 0;  // one turn each
+    plan.budget_ms = 0;  // two turns each
     calls.clear();
-    EXPECT_EQ(time_interleaved(jobs, plan)[1].calls, 1);
-    EXPECT_EQ(calls,
-              "ab"
-              "ab");
+    EXPECT_EQ(time_interleaved(jobs, plan)[1].calls, 2);
+    EXPECT_EQ(calls, "ababba");
 }
 
 /// What every measured part promises.
@@ -137,13 +135,17 @@ TEST(DiffractionBench, MethodsThatWouldTakeTooLongAreLeftOut) {
 
 TEST(DiffractionBench, CountsWorkAsTheThesisDoes) {
     DiffractionBenchPlan plan = quick_plan();
-    plan.sizes = {256, 512};
-    const std::vector<QuadRow> quads = measure_quads(plan, quick_options("heptagon"));
-    ASSERT_EQ(quads.size(), 2u);
-    EXPECT_EQ(quads[1].aggressive, quads[0].finest);
-    for (const auto& [row, printed] : {std::pair(quads[0], 176), std::pair(quads[1], 389)}) {
-        EXPECT_GT(static_cast<double>(row.finest), 0.8 * printed);
-        EXPECT_LT(static_cast<double>(row.finest), 1.25 * printed);
+    plan.sizes = {256, 512, 1024, 2048};
+    const int printed[4][4] = {
+        {40, 40, 40, 617}, {109, 227, 440, 981}, {176, 389, 730, 1613}, {303, 647, 1358, 2673}};
+    const std::vector<QuadRow> quads = measure_quads(plan);
+    ASSERT_EQ(quads.size(), 16u);
+    for (std::size_t i = 0; i < 16; ++i) {
+        EXPECT_NEAR(static_cast<double>(quads[i].finest) / printed[i / 4][i % 4], 1, 0.07)
+            << quads[i].aperture;
+        if (i % 4 > 0) {
+            EXPECT_EQ(quads[i].aggressive, quads[i - 1].finest);
+        }
     }
     plan.sizes = {512};
     const std::vector<CullRow> culling = measure_culling(plan);
