@@ -50,8 +50,7 @@ struct Ratio {
 Worst least_ratio(const std::vector<DiffractionRow>& rows, const Take& take, Ratio ratio, int threads) {
     Worst worst;
     for (const DiffractionRow& row : rows) {
-        if (row.threads != threads || row.method != automatic_name || row.time.calls == 0 || !take(row))
-            continue;
+        if (row.threads != threads || row.method != ratio.ours || row.time.calls == 0 || !take(row)) continue;
         const double peer_ms = least_ms(rows, row, ratio.peer, false);
         if (peer_ms > 0) worst.least(peer_ms / row.time.least_ms, row);
     }
