@@ -23,7 +23,7 @@ const std::array<LessonInfo, 12> infos{{
     {10, "Adding quads", "the far field as a sum of closed forms, largest quads first, and what it costs"},
     {11, "From near to far",
      "fringes along a shadow's edge become the far field; the bright spot behind a disc"},
-    {12, "Wavelengths adding to colour",
+    {12, "Adding wavelengths",
      "one pattern per wavelength, how many it takes, and how fine a lookup must be"},
 }};
 
