@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "app/aperture_file.h"
 #include "app/cli_commands.h"
@@ -16,6 +18,8 @@
 
 namespace obscura {
 namespace {
+
+constexpr double default_decades = 7;
 
 constexpr std::array far_methods = {
     FarFieldMethod::automatic, FarFieldMethod::direct,     FarFieldMethod::shift,
@@ -83,8 +87,8 @@ struct Texts {
     std::string diameter, pitch;
     bool far = false, log = false, linear = false, overwrite = false;
     double decades = 0;
-    std::int64_t mask = 1024, size = 1024, finest = 0, blades = 7, lines = 16, slits = 1, wavelengths = 0,
-                 memory = 4096, threads = 0;
+    std::int64_t mask = 1024, size = 1024, finest = 0, blades = 7, lines = 16, slits = 1, vanes = 4,
+                 rings = 2, wavelengths = 0, memory = 4096, threads = 0;
 };
 
 void add_aperture_flags(Flags& flags, Texts& t, ApertureShape& shape) {
@@ -104,8 +108,12 @@ void add_aperture_flags(Flags& flags, Texts& t, ApertureShape& shape) {
                  "Turns the shape, clockwise, degrees.", "0");
     flags.number("--bow", "SHARE", shape.bow, 0, 1, "iris: 0 straight blades, 1 a full circle.", "0");
     flags.number("--aspect", "RATIO", shape.aspect, 1.0 / 64, 64, "box: height / width.", "1");
+    flags.number("--obstruction", "SHARE", shape.obstruction, 0, 0.99,
+                 "annulus: diameter of the mirror in its middle.", "0.3");
+    flags.whole("--vanes", "N", t.vanes, 0, 64, "annulus: how many hold that mirror.", "4");
     flags.whole("--slits", "N", t.slits, 1, 1024, "slit: how many side by side.", "1");
     flags.whole("--lines", "N", t.lines, 1, 4096, "grating: number of openings.", "16");
+    flags.whole("--rings", "N", t.rings, 1, 32, "hexagons: rings of segments around the missing one.", "2");
     flags.whole("--finest-level", "N", t.finest, 0, 12,
                 "Use the mask at 1 / 2^N of its size, each texel open or closed.", "0");
 }
@@ -122,10 +130,11 @@ void add_pattern_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
                 "as many as the picture needs");
     flags.whole("--size", "N", t.size, 1, 1048576, "Pixels a side.", "1024");
     flags.number("--zoom", "X", options.zoom, 1e-3, 1e6,
-                 "1: far, all frequencies up to half a cycle per texel; near, the width of the mask.", "1");
+                 "1: far, all frequencies up to half a cycle per texel; near, the longer side of the mask.",
+                 "far, a power of two that shows 56 to 112 fringes on either side; near, 1");
     flags.text(
         "--centre", "U,V", t.centre,
-        "Middle of the picture, right and down: far, cycles per width of the mask; near, widths of it.",
+        "Middle of the picture, right and down: far, cycles per longer side of the mask; near, such sides.",
         "0,0");
     flags.text("--method", "METHOD", t.method,
                "far: direct, shift, gemm, edges, levels, runs, raster_fft, polygon; near: direct, two_pass, "
@@ -145,12 +154,37 @@ void add_output_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
                  "Also write real and imaginary parts, NAME.re.pfm and so on.");
     flags.on_off("--log", t.log, "PNG shows powers of ten; the default of far fields.");
     flags.on_off("--linear", t.linear, "PNG shows power itself; the default of near fields.");
-    flags.number("--decades", "DECADES", t.decades, 0.1, 30, "How many powers of ten --log shows.", "6");
+    flags.number("--decades", "DECADES", t.decades, 0.1, 30, "How many powers of ten --log shows.", "7");
     flags.on_off("--overwrite", t.overwrite, "Replace files that exist; otherwise they are an error.");
     flags.on_off("--plan", options.plan_only, "Only print what would be computed, and how.");
     flags.text("--stats-json", "FILE", t.stats, "Write plan, counts and times (s) as JSON.", "none");
     flags.whole("--limit-memory", "MIB", t.memory, 1, 1 << 24, "Refuse what needs more memory, MiB.", "4096");
     add_exec_flags(flags, t.threads, t.isa);
+}
+
+/// Flags of shapes that `shape` does not have, or a mask file, would change nothing.
+void check_shape_flags(const Texts& t, const ApertureShape& shape, bool from_file) {
+    const ApertureShape plain;
+    const auto needs = [&](const char* flag, bool differs, std::initializer_list<ApertureKind> kinds) {
+        if (!differs || (!from_file && std::find(kinds.begin(), kinds.end(), shape.kind) != kinds.end()))
+            return;
+        std::vector<std::string> names;
+        for (const ApertureKind kind : kinds)
+            names.emplace_back(aperture_kind_name(kind));
+        throw UsageError(fmt::format("{} is of {}, not of {}", flag, fmt::join(names, " and "),
+                                     from_file ? "mask files" : aperture_kind_name(shape.kind)));
+    };
+    needs("--blades", t.blades != plain.blades, {ApertureKind::iris, ApertureKind::whirl});
+    needs("--bow", shape.bow != plain.bow, {ApertureKind::iris});
+    needs("--aspect", shape.aspect != plain.aspect, {ApertureKind::box});
+    needs("--obstruction", shape.obstruction != plain.obstruction, {ApertureKind::annulus});
+    needs("--vanes", t.vanes != plain.vanes, {ApertureKind::annulus});
+    needs("--slits", t.slits != plain.slits, {ApertureKind::slit});
+    needs("--lines", t.lines != plain.lines, {ApertureKind::grating});
+    needs("--rings", t.rings != plain.rings, {ApertureKind::hexagons});
+    if (!from_file) return;
+    if (shape.rotation_deg != 0) throw UsageError("--rotation-deg is of shapes, not of mask files");
+    if (t.mask != Texts{}.mask) throw UsageError("--mask-size is of shapes, not of mask files");
 }
 
 void set_width(const Texts& t, DiffractionOptions& options) {
@@ -187,8 +221,9 @@ void set_field(const Texts& t, DiffractionOptions& options) {
         options.far.method = named_value("--method", t.method, far_methods, far_field_method_name);
     }
     if (t.log && t.linear) throw UsageError("give either --log or --linear, not both");
+    if (t.decades > 0 && t.linear) throw UsageError("--decades is of --log, not of --linear");
     options.view.logarithmic = t.log || t.decades > 0 || (!t.linear && !options.near_m);
-    if (t.decades > 0) options.view.decades = t.decades;
+    options.view.decades = t.decades > 0 ? t.decades : default_decades;
 }
 
 }  // namespace
@@ -218,7 +253,10 @@ int run_diffraction(const Arguments& arguments) {
     } else {
         shape.kind = named_value("APERTURE", t.aperture, shape_kinds, aperture_kind_name);
     }
+    check_shape_flags(t, shape, names_mask_file(t.aperture));
     shape.blades = static_cast<int>(t.blades);
+    shape.vanes = static_cast<int>(t.vanes);
+    shape.rings = static_cast<int>(t.rings);
     shape.slits = static_cast<int>(t.slits);
     shape.lines = static_cast<int>(t.lines);
     options.shape = shape;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "app/aperture_file.h"
@@ -14,6 +15,7 @@
 #include "core/image_io.h"
 #include "core/num.h"
 #include "core/parallel.h"
+#include "optics/aperture_extent.h"
 #include "optics/near_field_scaled.h"
 #include "optics/psf.h"
 
@@ -48,10 +50,11 @@ std::int64_t pattern_bytes(const DiffractionOptions& options, std::int64_t texel
 void check_limits(const DiffractionOptions& options, std::int64_t texels) {
     const std::int64_t bytes = pattern_bytes(options, texels);
     if (bytes <= options.memory_mib << 20) return;
-    throw LimitError(
-        fmt::format("a pattern of {0} x {0} pixels needs about {1:.0f} MiB, more than "
-                    "--limit-memory {2}",
-                    options.size_px, static_cast<double>(bytes) / (1 << 20), options.memory_mib));
+    throw LimitError(fmt::format(
+        "a pattern of {0} x {0} pixels behind a mask of {1:.4g} million texels needs about {2:.0f} MiB, more "
+        "than --limit-memory {3}",
+        options.size_px, 1e-6 * static_cast<double>(texels), static_cast<double>(bytes) / (1 << 20),
+        options.memory_mib));
 }
 
 Aperture mask_from_file(const DiffractionOptions& options) {
@@ -75,22 +78,63 @@ Aperture mask_from_shape(const DiffractionOptions& options) {
 Aperture load_aperture(const DiffractionOptions& options) {
     Aperture aperture = options.mask_file.empty() ? mask_from_shape(options) : mask_from_file(options);
     if (options.finest_level > 0) aperture = reduce(aperture, options.finest_level, true);
+    if (!(open_area(aperture.mask.view()) > 0)) {
+        throw InputError(options.aperture,
+                         options.finest_level > 0
+                             ? fmt::format("the aperture is closed at --finest-level {} ({} x {} texels)",
+                                           options.finest_level, aperture.mask.width, aperture.mask.height)
+                             : "the aperture is closed: no texel lets light through");
+    }
     return aperture;
 }
 
+double longer_side(const Aperture& aperture) {
+    return std::max(aperture.mask.width, aperture.mask.height);
+}
+
+/// Streaks are in sight and rings can be counted: the opening's width times the highest frequency is from 56
+/// to 112. A power of two keeps natural grids natural.
+double far_zoom(const DiffractionOptions& options, const Aperture& aperture) {
+    if (options.zoom > 0) return options.zoom;
+    constexpr int most_fringes = 112;
+    const OpenExtent open = open_extent(aperture.mask.view());
+    double zoom = 1;
+    while (zoom * most_fringes < std::max(open.width, open.height) / 2.0)
+        zoom *= 2;
+    return zoom;
+}
+
 FrequencyGrid far_grid(const DiffractionOptions& options, const Aperture& aperture) {
-    const double step = 1 / (options.zoom * options.size_px);
-    const double width = aperture.mask.width;
-    return centred_grid(options.size_px, options.size_px, step, options.centre.x / width,
-                        options.centre.y / width);
+    const double step = 1 / (far_zoom(options, aperture) * options.size_px);
+    const double side = longer_side(aperture);
+    return centred_grid(options.size_px, options.size_px, step, options.centre.x / side,
+                        options.centre.y / side);
 }
 
 PlaneGrid near_grid(const DiffractionOptions& options, const Aperture& aperture) {
-    const double width = aperture.mask.width;
-    PlaneGrid plane = centred_plane(options.size_px, width / options.zoom);
-    plane.first_x += options.centre.x * width;
-    plane.first_y += options.centre.y * width;
+    const double side = longer_side(aperture);
+    PlaneGrid plane = centred_plane(options.size_px, side / (options.zoom > 0 ? options.zoom : 1));
+    plane.first_x += options.centre.x * side;
+    plane.first_y += options.centre.y * side;
     return plane;
+}
+
+/// What the cheapest method takes, beside a choice that may take a thousand times as long.
+void compare_with_cheapest(Job& job, const DiffractionOptions& options) {
+    const auto note = [](std::string& reason, const char* cheapest, double ms) {
+        reason += fmt::format("; the cheapest, {}, takes about {:.3g} ms on one thread", cheapest, ms);
+    };
+    if (options.near_m && options.near_method != NearFieldMethod::automatic) {
+        NearFieldParams any = job.near;
+        any.method = NearFieldMethod::automatic;
+        const NearFieldReport plan = plan_near_field(job.aperture, job.plane, any);
+        note(job.near_plan.reason, near_field_method_name(plan.method), plan.cost_ms);
+    } else if (!options.near_m && options.far.method != FarFieldMethod::automatic) {
+        FarFieldParams any = options.far;
+        any.method = FarFieldMethod::automatic;
+        const FarFieldReport plan = plan_far_field(job.aperture, job.far_grid, any);
+        note(job.far_plan.reason, far_field_method_name(plan.method), plan.cost_ms);
+    }
 }
 
 Job plan_job(const DiffractionOptions& options) {
@@ -108,6 +152,7 @@ Job plan_job(const DiffractionOptions& options) {
         job.far_grid = far_grid(options, job.aperture);
         job.far_plan = plan_far_field(job.aperture, job.far_grid, options.far);
     }
+    compare_with_cheapest(job, options);
     return job;
 }
 
@@ -131,9 +176,9 @@ std::string pattern_text(const DiffractionOptions& options, const Job& job) {
     } else {
         const double radians = job.far_grid.step_u * nm * 1e-9 / job.aperture.pitch_m;
         out = fmt::format(
-            "pattern   far field, {} x {} pixels of {:.4g} cycles per width of the mask, that is "
+            "pattern   far field, {} x {} pixels of {:.4g} cycles per side of the mask, that is "
             "{:.4g} arc seconds at {:.4g} nm\n",
-            options.size_px, options.size_px, job.far_grid.step_u * job.aperture.mask.width,
+            options.size_px, options.size_px, job.far_grid.step_u * longer_side(job.aperture),
             radians * (180 / num::pi) * 3600, nm);
     }
     const std::string method = options.near_m ? near_field_method_name(job.near_plan.method)
@@ -203,15 +248,24 @@ std::filesystem::path part_path(const std::string& file, const char* part) {
 }
 
 void check_files(const DiffractionOptions& options) {
+    std::vector<std::filesystem::path> files;
     for (const std::string& file : options.outputs) {
         file_kind(file);
-        check_writable(file, options.existing);
+        files.emplace_back(file);
     }
     if (options.amplitude) {
         for (const char* part : {"re", "im"})
-            check_writable(part_path(options.outputs.front(), part), options.existing);
+            files.push_back(part_path(options.outputs.front(), part));
     }
-    if (!options.stats_json.empty()) check_writable(options.stats_json, options.existing);
+    if (!options.stats_json.empty()) files.push_back(options.stats_json);
+
+    std::set<std::filesystem::path> seen;
+    for (const std::filesystem::path& file : files) {
+        if (!seen.insert(std::filesystem::absolute(file).lexically_normal()).second)
+            throw UsageError(fmt::format("'{}' would be written twice", file.string()));
+    }
+    for (const std::filesystem::path& file : files)
+        check_writable(file, options.existing);
 }
 
 void write_pattern(const DiffractionOptions& options, const Pattern& pattern) {
@@ -268,8 +322,6 @@ int diffraction_command(const DiffractionOptions& options) {
         throw UsageError("--amplitude is of one wavelength: give --wavelength-nm, not --spectrum");
     if (!options.plan_only) check_files(options);
     Job job = plan_job(options);
-    if (!(job.open > 0))
-        throw InputError(options.aperture, "the aperture is closed: no texel lets light through");
     fmt::print("{}{}", aperture_text(options, job), pattern_text(options, job));
     std::fflush(stdout);
     if (options.plan_only) return 0;

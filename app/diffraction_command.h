@@ -42,8 +42,8 @@ struct DiffractionOptions {
     int wavelengths = 0;  ///< of a spectrum; 0: the program chooses
 
     int size_px = 1024;
-    double zoom = 1;
-    Vec2d centre;  ///< far: cycles per width of the mask; near: widths of the mask
+    double zoom = 0;  ///< 0: far, 56 to 112 fringes on either side; near, 1
+    Vec2d centre;     ///< far: cycles per longer side of the mask; near: such sides
     FarFieldParams far;
     NearFieldMethod near_method = NearFieldMethod::automatic;
 

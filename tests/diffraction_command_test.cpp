@@ -156,6 +156,48 @@ TEST(DiffractionCommand, ThePlanNamesMethodAndReason) {
     EXPECT_NE(run.out.find("at 500 nm"), std::string::npos) << run.out;
 }
 
+TEST(DiffractionCommand, ADefaultPictureShowsTheSameOfEveryMask) {
+    // 57.6 fringes of 0.9 mask sides at the edge: 64 cycles per side, however many texels the mask has.
+    const Folder folder;
+    for (const char* mask : {"2048", "1024", "512", "128"}) {
+        const Outcome run =
+            run_in(folder, {"diffraction", "iris", "--plan", "--size", "128", "--mask-size", mask});
+        EXPECT_NE(run.out.find("pixels of 1 cycles per side"), std::string::npos) << mask << run.out;
+    }
+    const Outcome near = run_in(folder, {"diffraction", "iris", "--plan", "--near", "9", "--pitch-um", "3"});
+    EXPECT_NE(near.out.find("1024 x 1024 pixels of 3 um"), std::string::npos) << near.out;
+    // A mask of 2 x 8 texels of 1 um: the near field's picture is 8 um wide and high.
+    folder.write("tall.pgm", "P2\n2 8\n1\n1 1 1 1 1 1 1 1 1 1 1 1 1 1 1 1\n");
+    const Outcome tall = run_in(
+        folder, {"diffraction", "tall.pgm", "--plan", "--near", "9", "--pitch-um", "1", "--size", "4"});
+    EXPECT_NE(tall.out.find("4 x 4 pixels of 2 um"), std::string::npos) << tall.out;
+}
+
+TEST(DiffractionCommand, AMethodAskedForStandsBesideTheCheapest) {
+    const Folder folder;
+    const Outcome far = run_in(folder, {"diffraction", "iris", "--plan", "--method", "direct"});
+    EXPECT_NE(far.out.find("the cheapest, runs, takes about"), std::string::npos) << far.out;
+    const Outcome near =
+        run_in(folder, {"diffraction", "iris", "--plan", "--near", "9", "--method", "direct"});
+    EXPECT_NE(near.out.find("the cheapest, "), std::string::npos) << near.out;
+}
+
+TEST(DiffractionCommand, SegmentsAndVanesAreCounted) {
+    const Folder folder;
+    const auto open_share = [&](std::vector<std::string> flags) {
+        flags.insert(flags.begin(), "diffraction");
+        flags.insert(flags.end(), {"--plan", "--mask-size", "512"});
+        const std::string out = run_in(folder, flags).out;
+        const std::size_t end = out.find(" % open");
+        return end == std::string::npos ? -1.0 : std::stod(out.substr(out.rfind(' ', end - 1)));
+    };
+    EXPECT_NEAR(open_share({"annulus", "--vanes", "0", "--obstruction", "0.5"}), 47.71,
+                0.06);  // pi .45^2 3/4
+    EXPECT_LT(open_share({"annulus", "--vanes", "9", "--obstruction", "0.5"}), 47);
+    EXPECT_GT(std::fabs(open_share({"hexagons", "--rings", "1"}) - open_share({"hexagons", "--rings", "4"})),
+              0.5);
+}
+
 TEST(DiffractionCommand, StatisticsAreJson) {
     const Folder folder;
     ASSERT_EQ(run_in(folder, {"diffraction", "box", "--mask-size", "64", "--size", "64", "--stats-json",
@@ -220,6 +262,15 @@ TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
         {{"iris", "--pitch-um", "5", "--diameter-mm", "6"}, 2, "give either --diameter-mm or --pitch-um"},
         {{"iris", "--centre", "4"}, 2, "--centre: '4' is not like 12.5,-3"},
         {{"iris", "--log", "--linear"}, 2, "give either --log or --linear"},
+        {{"iris", "--linear", "--decades", "4"}, 2, "--decades is of --log"},
+        {{"iris", "-o", "a.png", "-o", "./a.png"}, 2, "'./a.png' would be written twice"},
+        {{"iris", "-o", "a.png", "--stats-json", "a.png"}, 2, "'a.png' would be written twice"},
+        {{"circle", "--blades", "5"}, 2, "--blades is of iris and whirl, not of circle"},
+        {{"none.png", "--rotation-deg", "5"}, 2, "--rotation-deg is of shapes, not of mask files"},
+        {{"none.png", "--aspect", "2"}, 2, "--aspect is of box, not of mask files"},
+        {{"iris", "--mask-size", "64", "--finest-level", "9"},
+         3,
+         "closed at --finest-level 9 (1 x 1 texels)"},
         {{"iris", "--size", "900000"}, 4, "more than --limit-memory 4096"},
         {{"iris", "--size", "2048", "--limit-memory", "8"}, 4, "more than --limit-memory 8"},
         {{"iris", "--blades", "2"}, 2, "--blades: '2' is not a whole number from 3 to 64"},
