@@ -103,14 +103,47 @@ Rgb8 checks(double u, double v) {
     return white ? Rgb8{255, 255, 255} : Rgb8{0, 0, 0};
 }
 
+struct Lash {
+    double root = 0, tip = 0, bend = 0, width = 0;
+};
+
+/// Tapered hairs of about 0.1 mm that hang down from the upper lid and bend outwards. Units: half pupils.
+std::vector<Lash> lashes() {
+    constexpr int count = 11;
+    std::vector<Lash> all;
+    for (int i = 0; i < count; ++i) {
+        Random dice = Random(41).fork(static_cast<std::uint64_t>(i));
+        Lash& lash = all.emplace_back();
+        lash.root = -1.05 + 2.1 * (i + dice.range(0.2, 0.8)) / count;
+        lash.tip = dice.range(-0.25, 0.75);
+        lash.bend = 0.34 * lash.root + dice.range(-0.1, 0.1);
+        lash.width = dice.range(0.018, 0.03);
+    }
+    return all;
+}
+
+/// The pupil of a screwed-up eye, 5 mm wide, behind its lashes. White is open.
+Rgb8 eye(double u, double v) {
+    static const std::vector<Lash> all = lashes();
+    constexpr Rgb8 open{255, 255, 255}, closed{0, 0, 0};
+    const double x = 2 * u - 1, y = 2 * v - 1;
+    if (x * x + y * y > 1) return closed;
+    for (const Lash& lash : all) {
+        const double along = (y + 1.1) / (lash.tip + 1.1);
+        if (along > 1) continue;
+        if (std::fabs(x - lash.root - lash.bend * along * along) < lash.width * (1 - 0.75 * along))
+            return closed;
+    }
+    return open;
+}
+
 }  // namespace
 
 std::vector<Pattern> patterns() {
-    return {{"textures/wood.png", picture(256, 1, wood)},
-            {"textures/parquet.png", picture(256, 1, parquet)},
-            {"textures/tiles.png", picture(512, 4, tiles)},
-            {"textures/cloth.png", picture(128, 1, cloth)},
-            {"tests/checks.png", picture(64, 1, checks)}};
+    return {
+        {"textures/wood.png", picture(256, 1, wood)},   {"textures/parquet.png", picture(256, 1, parquet)},
+        {"textures/tiles.png", picture(512, 4, tiles)}, {"textures/cloth.png", picture(128, 1, cloth)},
+        {"textures/eye.png", picture(2048, 2, eye)},    {"tests/checks.png", picture(64, 1, checks)}};
 }
 
 }  // namespace obscura

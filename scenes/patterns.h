@@ -16,7 +16,8 @@ struct Pattern {
 };
 
 /// textures/wood.png (grain along u), parquet.png (squares of strips, their grain crosswise), tiles.png
-/// (painted tiles of 25 cm), cloth.png (woven checks of 12.5 cm); tests/checks.png (black and white squares
+/// (painted tiles of 25 cm), cloth.png (woven checks of 12.5 cm), eye.png (no texture: an aperture, a pupil
+/// behind eyelashes); tests/checks.png (black and white squares
 /// of 12.5 cm).
 std::vector<Pattern> patterns();
 
