@@ -14,6 +14,7 @@
 // middle are real too, and two groups of columns share one complex transform.
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/buffer.h"
@@ -32,7 +33,8 @@ namespace {
 struct RunsOfMask {
     const NaturalTransform& transform;
     RowRuns runs;
-    bool mirrored = false;  ///< sums about the middle, real
+    bool mirrored = false;        ///< sums about the middle, real
+    float alternating_scale = 1;  ///< see alternating_scale_of()
 };
 
 std::size_t root_index(std::int64_t product, int period) {
@@ -70,20 +72,31 @@ void fill_table(const RunsOfMask& m, int group, Isa isa, Scratch& s) {
 }
 
 /// Sum over the texels of a row (alternating: times (-1)^x), which differences of edges cannot give. Sums are
-/// as large as rows are long, those they share a transform with are of order 1: they are scaled down to them,
-/// so that its rounding does not drown the partner.
+/// as large as rows are long, those they share a transform with are mostly of order 1: each is scaled down to
+/// that, so that neither's rounding drowns the other.
 float row_sum(const RowRuns& runs, int y, bool alternating) {
-    float sum = 0;
+    double sum = 0;  // thousands of equal terms would all round the same way in float
     for (auto r = static_cast<std::size_t>(runs.first[static_cast<std::size_t>(y)]);
          r < static_cast<std::size_t>(runs.first[static_cast<std::size_t>(y) + 1]); ++r) {
         const std::int32_t length = runs.end[r] - runs.begin[r];
-        const float weight = runs.weight[r];
+        const double weight = static_cast<double>(runs.weight[r]);
         if (!alternating)
-            sum += weight * static_cast<float>(length);
+            sum += weight * length;
         else if (length % 2 != 0)
             sum += runs.begin[r] % 2 == 0 ? weight : -weight;
     }
-    return sum;
+    return static_cast<float>(sum);
+}
+
+/// The power of two that brings the alternating sums of all rows to 1 at most: they are small for most masks,
+/// as large as the others for gratings of one texel.
+float alternating_scale_of(const RowRuns& runs, int height) {
+    float most = 0, scale = 1;
+    for (int y = 0; y < height; ++y)
+        most = std::max(most, std::fabs(row_sum(runs, y, true)));
+    while (most * scale > 1)
+        scale /= 2;
+    return scale;
 }
 
 void sum_rows(const RunsOfMask& m, const float* table, Isa isa, float* out) {
@@ -99,7 +112,7 @@ SpectrumBlock complex_group(const RunsOfMask& m, int group, Isa isa, Scratch& s,
     sum_rows(m, s.table_im.data(), isa, im);
     for (int y = 0; group == 0 && y < t.height; ++y) {
         re[16 * y] = row_sum(m.runs, y, false) * row_sum_scale(t.grid.u);
-        im[16 * y] = row_sum(m.runs, y, true);
+        im[16 * y] = row_sum(m.runs, y, true) * m.alternating_scale;
     }
     fft16_forward(t.v_plan, re, im, isa);
     const std::vector<ColumnStrip>& strips = t.edge_strips[static_cast<std::size_t>(group)].strips;
@@ -155,8 +168,8 @@ void column_batch(const RunsOfMask& m, int first, int last, Isa isa, Scratch& s,
     }
     OBSCURA_DISPATCH(isa, store_columns16, blocks.data(), count, t.rows(), target);
     if (first == 0)
-        store_real_pair(blocks[0].re, blocks[0].im, row_sum_scale(t.grid.u), t.rows(), t.grid.u, t.u_texel,
-                        target);
+        store_real_pair(blocks[0].re, blocks[0].im, {row_sum_scale(t.grid.u), m.alternating_scale}, t.rows(),
+                        t.grid.u, t.u_texel, target);
 }
 
 }  // namespace
@@ -165,8 +178,9 @@ void far_field_runs(ImageView<const float> mask, const NaturalTransform& transfo
                     const Exec& exec) {
     CHECK(mask.width == transform.width && mask.height == transform.height);
     const NaturalAxis& u = transform.grid.u;
-    RunsOfMask m{transform, row_runs(mask, exec.isa), false};
+    RunsOfMask m{transform, row_runs(mask, exec.isa)};
     m.mirrored = mask.width % 2 == 0 && u.log2_period > 0 && same_left_and_right(m.runs, mask.width);
+    if (!m.mirrored) m.alternating_scale = alternating_scale_of(m.runs, mask.height);
     const int groups = static_cast<int>(transform.used_groups.size());
     const int items = m.mirrored ? (groups + 1) / 2 : groups;
     const int batch = groups_at_once(items, transform.v_plan.length(), exec);

@@ -109,7 +109,7 @@ GroupStrips mirror_strips(const NaturalAxis& u, int group) {
     });
 }
 
-void store_real_pair(const float* re, const float* im, float scale, const SpectrumRows& rows,
+void store_real_pair(const float* re, const float* im, const PairScales& scales, const SpectrumRows& rows,
                      const NaturalAxis& u, const AxisFactors& factors, const FieldTarget& target) {
     const int period = u.period(), row_period = 1 << rows.log2_period;
     for (int c = 0; c < u.count; ++c) {
@@ -117,7 +117,7 @@ void store_real_pair(const float* re, const float* im, float scale, const Spectr
         const bool first_of_pair = j == 0;
         if (!first_of_pair && 2 * j != period) continue;
         const auto column = static_cast<std::size_t>(c);
-        const float undo = first_of_pair ? 1 / scale : 1;
+        const float undo = 1 / (first_of_pair ? scales.sum : scales.alternating);
         const float factor_re = undo * factors.re[column], factor_im = undo * factors.im[column];
         const float factor_power = undo * undo * factors.power[column];
         for (int r = 0; r < rows.count; ++r) {

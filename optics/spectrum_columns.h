@@ -39,9 +39,14 @@ float row_sum_scale(const NaturalAxis& u);
 /// row_sum_scale().
 GroupStrips mirror_strips(const NaturalAxis& u, int group);
 
+/// What sums were multiplied by before their transform.
+struct PairScales {
+    float sum = 1, alternating = 1;
+};
+
 /// The columns j = 0 and j = M / 2, whose sums are real: transformed together as lane 0 of the first group,
-/// one the real, the other the imaginary part; the real one times `scale`, which is undone here.
-void store_real_pair(const float* re, const float* im, float scale, const SpectrumRows& rows,
+/// one the real, the other the imaginary part; their scales are undone here.
+void store_real_pair(const float* re, const float* im, const PairScales& scales, const SpectrumRows& rows,
                      const NaturalAxis& u, const AxisFactors& factors, const FieldTarget& target);
 
 /// Zeros in the columns congruent to M / 2: there a mask that is the same left and right, of even width, has

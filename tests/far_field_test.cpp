@@ -6,6 +6,7 @@
 
 #include "far_field_oracle.h"
 #include "optics/natural_grid.h"
+#include "optics/natural_transform.h"
 
 namespace obscura {
 namespace {
@@ -49,6 +50,26 @@ TEST(FarField, NaturalGridsAgreeWithTheDefinition) {
                 }
             }
         }
+    }
+}
+
+/// Thousands of runs in a row, whose lengths add up to the field at frequency 0.
+TEST(FarField, WideGreyMasksKeepTheirArea) {
+    Image<float> mask(4096, 16);
+    for (const bool mirrored : {false, true}) {
+        for (int y = 0; y < mask.height; ++y) {
+            for (int x = 0; x < mask.width; ++x)
+                mask(x, y) = std::min(x, mirrored ? mask.width - 1 - x : x) % 2 == 0 ? 0.1f : 0.3f;
+        }
+        const double step = 1.0 / mask.width;
+        const FrequencyGrid grid{35, 3, -2 * step, -step, step, step};
+        const auto natural = natural_grid(mask.width, mask.height, grid);
+        ASSERT_TRUE(natural);
+        Field field{Image<float>(grid.width, grid.height), Image<float>(grid.width, grid.height)};
+        far_field_runs(mask.view(), natural_transform(mask.width, mask.height, *natural),
+                       {field.re.pixels.data(), field.im.pixels.data(), nullptr, grid.width}, {});
+        const auto truth = exact(mask.view(), grid);
+        EXPECT_LE(amplitude_error(field, truth, open_area(mask.view())), tolerance) << mirrored;
     }
 }
 
