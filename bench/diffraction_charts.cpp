@@ -90,21 +90,19 @@ PanelChart time_chart(const std::vector<DiffractionRow>& rows, const std::string
     return chart;
 }
 
-/// Error against time, the goal as a broken line.
+/// Error against time, the goal as a grey line.
 PanelChart error_chart(const std::vector<DiffractionRow>& rows, const char* part, const char* title,
                        const char* y_label, double goal) {
     const auto known = rows_where(rows, [](const DiffractionRow& row) { return row.same_function; });
-    PanelChart chart =
-        chart_of(title,
-                 "A point per size, doubled from left to right. Further left is faster, further down is more "
-                 "accurate. "
-                 "Broken line: the goal. One thread.",
-                 panels_of(known, part, {time_of, [](const DiffractionRow& row) { return row.error; }}));
+    PanelChart chart = chart_of(
+        title,
+        "A point per size, doubled from left to right; left is faster, down more accurate. Grey line: goal.",
+        panels_of(known, part, {time_of, [](const DiffractionRow& row) { return row.error; }}));
     chart.x_label = "milliseconds";
     chart.y_label = y_label;
     chart.x_tics = fmt::format(
         "set format x '%g'\nset format y '%.0e'\nset yrange [5e-9:4e-6]\n"
-        "set arrow 1 from graph 0, first {0:g} to graph 1, first {0:g} nohead dt 2 lc rgb '#888888'",
+        "set arrow 1 from graph 0, first {0:g} to graph 1, first {0:g} nohead lc rgb '#888888'",
         goal);
     return chart;
 }
