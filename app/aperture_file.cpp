@@ -77,6 +77,27 @@ Image<float> read_mask(const std::filesystem::path& file, const std::string& nam
     return decode_mask(read_file(file, largest_mask_file), name, limits);
 }
 
+Image<float> square_opening(ImageView<const float> mask) {
+    int left = mask.width, right = -1, top = mask.height, bottom = -1;
+    for (int y = 0; y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x) {
+            if (mask(x, y) == 0) continue;
+            left = std::min(left, x);
+            right = std::max(right, x);
+            top = std::min(top, y);
+            bottom = y;
+        }
+    }
+    CHECK(right >= 0);
+    const int width = right - left + 1, height = bottom - top + 1, side = std::max(width, height);
+    Image<float> square(side, side);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x)
+            square(x + (side - width) / 2, y + (side - height) / 2) = mask(left + x, top + y);
+    }
+    return square;
+}
+
 Aperture scaled_aperture(Image<float> mask, const ApertureScale& scale) {
     if (scale.pitch_m.has_value() == scale.diameter_m.has_value())
         throw UsageError("aperture: give the size of its texels or its diameter, one of the two");

@@ -32,6 +32,10 @@ Image<float> decode_mask(std::string_view bytes, const std::string& name, const 
 Image<float> read_mask(const std::filesystem::path& file, const std::string& name,
                        const ImageFileLimits& limits);
 
+/// What remains when borders that are closed throughout are cut off, in the middle of a square (closed where
+/// it is larger than the opening): a mask that spans its pupil. The mask must not be closed.
+Image<float> square_opening(ImageView<const float> mask);
+
 /// Throws UsageError unless one scale is given, positive and finite.
 Aperture scaled_aperture(Image<float> mask, const ApertureScale& scale);
 

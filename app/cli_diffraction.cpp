@@ -84,11 +84,12 @@ Vec2d centre_value(const std::string& text) {
 struct Texts {
     std::string aperture, near, wavelength, spectrum, centre = "0,0", method = "automatic", stats,
                                                       isa = "auto";
-    std::string diameter, pitch;
+    std::string diameter, pitch, occluder = "none";
     bool far = false, log = false, linear = false, overwrite = false;
     double decades = 0;
     std::int64_t mask = 1024, size = 1024, finest = 0, blades = 7, lines = 16, slits = 1, vanes = 4,
                  rings = 2, wavelengths = 0, memory = 4096, threads = 0;
+    std::int64_t dust = 0, scratches = 0, eyelashes = 0;
 };
 
 void add_aperture_flags(Flags& flags, Texts& t, ApertureShape& shape) {
@@ -116,6 +117,41 @@ void add_aperture_flags(Flags& flags, Texts& t, ApertureShape& shape) {
     flags.whole("--rings", "N", t.rings, 1, 32, "hexagons: rings of segments around the missing one.", "2");
     flags.whole("--finest-level", "N", t.finest, 0, 12,
                 "Use the mask at 1 / 2^N of its size, each texel open or closed.", "0");
+}
+
+void add_dirt_flags(Flags& flags, Texts& t, LensDirt& dirt) {
+    flags.group("Dirt; lengths are shares of the mask's longer side");
+    flags.whole("--seed", "N", dirt.seed, 0, 4294967295, "Where whatever is random lies.", "1");
+    flags.number("--noise", "SHARE", dirt.noise, 0, 1, "Smears: most amplitude they take away.", "0");
+    flags.number("--noise-cell", "SHARE", dirt.noise_cell, 1.0 / 1024, 1, "Size of the largest.", "0.1");
+    flags.number("--noise-stretch", "RATIO", dirt.noise_stretch, 1, 64, "Their length / width.", "1");
+    flags.number("--noise-angle-deg", "DEG", dirt.noise_angle_deg, -36000, 36000,
+                 "Direction of their length, clockwise from the right.", "0");
+    flags.whole("--dust", "N", t.dust, 0, 10000, "Grains.", "0");
+    flags.number("--dust-radius", "SHARE", dirt.dust_radius, 1e-6, 0.5, "Of the largest.", "0.01");
+    flags.number("--dust-softness", "SHARE", dirt.dust_softness, 0, 1, "0 hard edges, 1 soft ones.", "0");
+    flags.whole("--scratches", "N", t.scratches, 0, 10000, "Dark lines.", "0");
+    flags.number("--scratch-width", "SHARE", dirt.scratch_width, 1e-6, 0.1, "Of the widest.", "0.001");
+    flags.number("--scratch-length", "SHARE", dirt.scratch_length, 1e-6, 2, "Of the longest.", "0.5");
+    flags.number("--scratch-spread-deg", "DEG", dirt.scratch_spread_deg, 0, 180,
+                 "Their directions lie this far around the vertical.", "180");
+    flags.whole("--eyelashes", "N", t.eyelashes, 0, 1000, "Hairs that hang from the upper side.", "0");
+    flags.number("--eyelash-width", "SHARE", dirt.eyelash_width, 1e-6, 0.1, "At the root.", "0.01");
+    flags.number("--eyelash-length", "SHARE", dirt.eyelash_length, 1e-6, 2, "Of the longest.", "0.6");
+    flags.text("--occluder", "KIND", t.occluder,
+               "A circle moved over the opening: housing (light passes inside only) or disc (outside only).",
+               "none");
+    flags.number("--occluder-diameter", "SHARE", dirt.occluder_diameter, 1e-6, 4, "Its diameter.", "1");
+    flags.number("--occluder-x", "SHARE", dirt.occluder_x, -2, 2, "Right of the mask's middle.", "0");
+    flags.number("--occluder-y", "SHARE", dirt.occluder_y, -2, 2, "Below the mask's middle.", "0");
+}
+
+Occluder occluder_value(const std::string& text) {
+    constexpr std::array kinds = {Occluder::none, Occluder::housing, Occluder::disc};
+    return named_value("--occluder", text, kinds, [](Occluder kind) {
+        constexpr const char* names[] = {"none", "housing", "disc"};
+        return names[static_cast<int>(kind)];
+    });
 }
 
 void add_pattern_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
@@ -237,6 +273,7 @@ int run_diffraction(const Arguments& arguments) {
     Texts t;
     ApertureShape shape;
     add_aperture_flags(flags, t, shape);
+    add_dirt_flags(flags, t, options.dirt);
     add_pattern_flags(flags, t, options);
     add_output_flags(flags, t, options);
     Arguments dashed = arguments;
@@ -260,6 +297,10 @@ int run_diffraction(const Arguments& arguments) {
     shape.slits = static_cast<int>(t.slits);
     shape.lines = static_cast<int>(t.lines);
     options.shape = shape;
+    options.dirt.dust = static_cast<int>(t.dust);
+    options.dirt.scratches = static_cast<int>(t.scratches);
+    options.dirt.eyelashes = static_cast<int>(t.eyelashes);
+    options.dirt.occluder = occluder_value(t.occluder);
     options.mask_px = static_cast<int>(t.mask);
     options.finest_level = static_cast<int>(t.finest);
     options.size_px = static_cast<int>(t.size);

@@ -15,6 +15,7 @@
 #include "core/image_io.h"
 #include "core/num.h"
 #include "core/parallel.h"
+#include "optics/aperture_dirt.h"
 #include "optics/aperture_extent.h"
 #include "optics/near_field_scaled.h"
 #include "optics/psf.h"
@@ -77,6 +78,7 @@ Aperture mask_from_shape(const DiffractionOptions& options) {
 
 Aperture load_aperture(const DiffractionOptions& options) {
     Aperture aperture = options.mask_file.empty() ? mask_from_shape(options) : mask_from_file(options);
+    add_dirt(options.dirt, aperture);
     if (options.finest_level > 0) aperture = reduce(aperture, options.finest_level, true);
     if (!(open_area(aperture.mask.view()) > 0)) {
         throw InputError(options.aperture,

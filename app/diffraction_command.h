@@ -10,6 +10,7 @@
 #include "app/output_plan.h"
 #include "core/file_output.h"
 #include "core/isa.h"
+#include "core/lens_dirt.h"
 #include "optics/aperture_shapes.h"
 #include "optics/far_field.h"
 #include "optics/field.h"
@@ -34,7 +35,8 @@ struct DiffractionOptions {
     std::optional<double>
         diameter_m;                 ///< of a shape, which takes 0.9 of its mask; of what a file leaves open
     std::optional<double> pitch_m;  ///< of a texel; neither: 5 mm
-    int finest_level = 0;           ///< masks are reduced by 2^level first, to 0 and 1
+    LensDirt dirt;
+    int finest_level = 0;  ///< masks are reduced by 2^level first, to 0 and 1
 
     std::optional<double> near_m;  ///< distance; none: far field
     std::optional<LightSpectrum> spectrum;

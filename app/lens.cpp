@@ -9,6 +9,7 @@
 #include "app/aperture_file.h"
 #include "core/error.h"
 #include "core/num.h"
+#include "optics/aperture_dirt.h"
 #include "optics/aperture_shapes.h"
 
 namespace obscura {
@@ -58,10 +59,12 @@ LightSource source_of(const std::string& name) {
 }
 
 std::string aperture_text(const OpticsSettings& o) {
-    if (o.aperture == "file") return fmt::format("mask of {} x {} texels", o.mask.width, o.mask.height);
+    const char* dirt = has_dirt(o.dirt) ? ", not clean" : "";
+    if (o.aperture == "file")
+        return fmt::format("mask of {} x {} texels{}", o.mask.width, o.mask.height, dirt);
     if (o.aperture == "iris" || o.aperture == "whirl")
-        return fmt::format("{} of {} blades", o.aperture, o.blades);
-    return o.aperture;
+        return fmt::format("{} of {} blades{}", o.aperture, o.blades, dirt);
+    return o.aperture + dirt;
 }
 
 double mib(std::int64_t bytes) {
@@ -81,10 +84,11 @@ double pixel_m(const OpticsSettings& optics, const RenderSettings& render) {
 Aperture lens_aperture(const OpticsSettings& optics) {
     Aperture aperture;
     if (optics.aperture == "file") {
-        aperture = scaled_aperture(optics.mask, {std::nullopt, pupil_m(optics)});
+        aperture = scaled_aperture(square_opening(optics.mask.view()), {std::nullopt, pupil_m(optics)});
     } else {
         aperture = make_aperture(shape_of(optics), optics.mask_px, pupil_m(optics));
     }
+    add_dirt(optics.dirt, aperture);
     if (!(open_area(aperture.mask.view()) > 0))
         throw InputError("[optics]", "the aperture is closed: no texel lets light through");
     return aperture;

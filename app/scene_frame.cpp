@@ -1,5 +1,6 @@
 // Tables -> camera, lights, settings. Whatever depends on the frame is here.
 
+#include <map>
 #include <string_view>
 
 #include "app/keyframes.h"
@@ -94,6 +95,32 @@ void set_shape(const SceneTable& table, OpticsSettings& o) {
     count("slits", o.slits);
     count("lines", o.lines);
     count("rings", o.rings);
+}
+
+LensDirt dirt_of(const SceneTable& table) {
+    static const std::map<std::string, Occluder> occluders = {
+        {"none", Occluder::none}, {"housing", Occluder::housing}, {"disc", Occluder::disc}};
+    LensDirt d;
+    d.seed = integer(table, "seed");
+    d.noise = number(table, "noise");
+    d.noise_cell = number(table, "noise_cell");
+    d.noise_stretch = number(table, "noise_stretch");
+    d.noise_angle_deg = number(table, "noise_angle_deg");
+    d.dust = static_cast<int>(integer(table, "dust"));
+    d.dust_radius = number(table, "dust_radius");
+    d.dust_softness = number(table, "dust_softness");
+    d.scratches = static_cast<int>(integer(table, "scratches"));
+    d.scratch_width = number(table, "scratch_width");
+    d.scratch_length = number(table, "scratch_length");
+    d.scratch_spread_deg = number(table, "scratch_spread_deg");
+    d.eyelashes = static_cast<int>(integer(table, "eyelashes"));
+    d.eyelash_width = number(table, "eyelash_width");
+    d.eyelash_length = number(table, "eyelash_length");
+    d.occluder = occluders.at(text(table, "occluder"));
+    d.occluder_diameter = number(table, "occluder_diameter");
+    d.occluder_x = number(table, "occluder_x");
+    d.occluder_y = number(table, "occluder_y");
+    return d;
 }
 
 /// The angle of view is the camera's; one more length makes it a lens and a sensor.
@@ -194,6 +221,7 @@ OpticsSettings optics_of(const SceneDocument& document, double frame) {
     o.enabled = true;
     o.aperture = text(table, "aperture");
     set_shape(table, o);
+    o.dirt = dirt_of(table);
     o.f_number = number(table, "f_number");
     o.clip = number(table, "clip");
     o.mask_px = static_cast<int>(integer(table, "mask_px"));

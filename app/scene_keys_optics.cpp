@@ -86,6 +86,71 @@ std::vector<KeySpec> lens_keys() {
     };
 }
 
+KeySpec count_key(const char* name, const char* doc, int most) {
+    return integer_key(name, doc).in({0, static_cast<double>(most)}).or_else(std::int64_t{0});
+}
+
+std::vector<KeySpec> dirt_keys() {
+    static const LensDirt d;
+    return {
+        integer_key("seed", "Where noise, dust, scratches and eyelashes are follows from it.")
+            .in({0, 4294967295.0})
+            .or_else(d.seed),
+        number_key("noise", "Smears: most of the amplitude that they take away; half of it on average.")
+            .in({0, 1})
+            .or_else(d.noise),
+        number_key("noise_cell", "Size of the largest smears, share of the lens.")
+            .in({1.0 / 1024, 1})
+            .or_else(d.noise_cell),
+        number_key("noise_stretch", "Length / width of smears.").in({1, 64}).or_else(d.noise_stretch),
+        number_key("noise_angle_deg", "Direction of their length, clockwise from the right.")
+            .in({-36000, 36000})
+            .or_else(d.noise_angle_deg),
+        count_key(
+            "dust",
+            "Grains on the lens. Dirt makes the pattern as coarse as mask_px: it fades out near a third of a "
+            "cycle per texel.",
+            10000),
+        number_key("dust_radius", "Of the largest, share of the lens.")
+            .in({0, 0.5, true})
+            .or_else(d.dust_radius),
+        number_key("dust_softness", "0: hard edges, 1: they fade from the middle on.")
+            .in({0, 1})
+            .or_else(d.dust_softness),
+        count_key("scratches", "Dark lines, slightly curved.", 10000),
+        number_key("scratch_width", "Of the widest, share of the lens.")
+            .in({0, 0.1, true})
+            .or_else(d.scratch_width),
+        number_key("scratch_length", "Of the longest, share of the lens.")
+            .in({0, 2, true})
+            .or_else(d.scratch_length),
+        number_key("scratch_spread_deg", "Their directions lie this far around the vertical; 180: all.")
+            .in({0, 180})
+            .or_else(d.scratch_spread_deg),
+        count_key("eyelashes", "Hairs that hang down before the lens.", 1000),
+        number_key("eyelash_width", "At the root, share of the lens.")
+            .in({0, 0.1, true})
+            .or_else(d.eyelash_width),
+        number_key("eyelash_length", "Of the longest, share of the lens.")
+            .in({0, 2, true})
+            .or_else(d.eyelash_length),
+        choice_key(
+            "occluder", {"none", "housing", "disc"},
+            "A circle moved over the opening: light passes inside it only (housing: the lens's barrel seen "
+            "from the side, a cat's eye) or outside it only (disc).")
+            .or_else("none"),
+        number_key("occluder_diameter", "Share of the lens.")
+            .in({0, 4, true})
+            .or_else(d.occluder_diameter)
+            .animate(),
+        number_key("occluder_x", "Of its middle, to the right of the lens's; share of the lens.")
+            .in({-2, 2})
+            .or_else(d.occluder_x)
+            .animate(),
+        number_key("occluder_y", "The same, down.").in({-2, 2}).or_else(d.occluder_y).animate(),
+    };
+}
+
 std::vector<KeySpec> glare_keys() {
     static const OpticsSettings d;
     return {
@@ -153,6 +218,8 @@ const TableSpec& optics_table() {
             names.push_back(variant.name);
         s.keys.push_back(choice_key("aperture", names, "The opening's shape.").or_else("iris"));
         for (KeySpec& key : lens_keys())
+            s.keys.push_back(std::move(key));
+        for (KeySpec& key : dirt_keys())
             s.keys.push_back(std::move(key));
         for (KeySpec& key : glare_keys())
             s.keys.push_back(std::move(key));

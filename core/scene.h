@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/lens_dirt.h"
 #include "core/mesh.h"
 #include "core/vec.h"
 
@@ -126,6 +127,7 @@ struct OpticsSettings {
     double obstruction = 0.3;       ///< annulus: of the diameter
     int vanes = 4;                  ///< annulus
     int slits = 1, lines = 16, rings = 2;
+    LensDirt dirt;
     // The lens. The camera's angle of view decides the size of the sensor.
     double focal_length_mm = 50, f_number = 8, sensor_height_mm = 24;
     double clip = 1;  ///< exposed radiance above which a pixel glares

@@ -110,6 +110,15 @@ TEST(ApertureFile, SizeByTexelOrByOpening) {
     EXPECT_THROW(scaled_aperture(Image<float>(3, 3), {std::nullopt, 1.0}), InputError);
 }
 
+TEST(ApertureFile, TheOpeningInASquare) {
+    Image<float> mask(5, 4);
+    mask(1, 1) = 0.25f;
+    mask(1, 3) = 1;
+    const Image<float> square = square_opening(mask.view());
+    ASSERT_EQ(square.width, 3);
+    EXPECT_EQ(square.pixels, (std::vector<float>{0, 0.25f, 0, 0, 0, 0, 0, 1, 0}));
+}
+
 TEST(ApertureFile, FilesHaveDotsOrSlashes) {
     EXPECT_TRUE(names_mask_file("iris.png"));
     EXPECT_TRUE(names_mask_file("./iris"));
@@ -170,6 +179,16 @@ TEST(ApertureFile, InAScene) {
         build("aperture = \"file\"\nfile = \"masks/cross.pbm\"\nf_number = 10\nfocal_length_mm = 40");
     EXPECT_EQ(scene.optics.mask.pixels, (std::vector<float>{0, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, 1, 0}));
     EXPECT_NEAR(lens_aperture(scene.optics).pitch_m, 1e-3, 1e-12);
+    folder.write("masks/margin.pgm", "P2 5 3 4\n0 0 0 0 0\n0 4 1 4 0\n0 0 0 0 0\n");
+    const Scene narrow = build(
+        "aperture = \"file\"\nfile = \"masks/margin.pgm\"\nf_number = 10\n"
+        "focal_length_mm = 30\ndust = 1\ndust_radius = 0.5");
+    const Aperture lens = lens_aperture(narrow.optics);
+    EXPECT_EQ(lens.mask.width, 3) << "the pupil is what is open";
+    EXPECT_NEAR(lens.pitch_m, 1e-3, 1e-12);
+    EXPECT_LT(open_area(lens.mask.view()), 2.25) << "less dust";
+    EXPECT_NE(error("aperture = \"circle\"\noccluder = \"disc\"\noccluder_diameter = 2").find("is closed"),
+              std::string::npos);
     EXPECT_NE(error("aperture = \"file\"").find("[optics] needs 'file'"), std::string::npos);
     EXPECT_NE(error("aperture = \"file\"\nfile = \"none.png\"").find("s.toml:11"), std::string::npos);
     EXPECT_NE(error("aperture = \"file\"\nfile = \"../x.png\"").find("leads outside"), std::string::npos);

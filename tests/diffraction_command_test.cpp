@@ -76,6 +76,29 @@ TEST(DiffractionCommand, MasksFromFiles) {
     EXPECT_EQ(large.code, 4) << large.err;
 }
 
+TEST(DiffractionCommand, DirtScattersLightAside) {
+    const Folder folder;
+    const std::vector<std::string> line = {"diffraction", "circle", "--mask-size", "128", "--size", "128"};
+    auto clean = line, dirty = line;
+    clean.insert(clean.end(), {"-o", "clean.pfm"});
+    dirty.insert(dirty.end(), {"--scratches", "30", "--scratch-spread-deg", "0", "--scratch-width", "0.01",
+                               "-o", "dirty.pfm"});
+    ASSERT_EQ(run_in(folder, clean).code, 0);
+    ASSERT_EQ(run_in(folder, dirty).code, 0);
+    const Image<float> a = grey_pfm(folder, "clean.pfm"), b = grey_pfm(folder, "dirty.pfm");
+    // Upright scratches spread light to the left and right, far more than up and down.
+    double before = 0, aside = 0, upward = 0;
+    for (int i = 90; i < 120; ++i) {
+        for (int j = 60; j < 68; ++j) {
+            before += static_cast<double>(a(i, j));
+            aside += static_cast<double>(b(i, j));
+            upward += static_cast<double>(b(j, i));
+        }
+    }
+    EXPECT_GT(aside, 10 * before);
+    EXPECT_GT(aside, 10 * upward);
+}
+
 TEST(DiffractionCommand, CentreMovesTheWindow) {
     const Folder folder;
     const std::vector<std::string> line = {"diffraction", "iris", "--mask-size", "64", "--size", "64"};
@@ -275,6 +298,9 @@ TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
         {{"iris", "--size", "2048", "--limit-memory", "8"}, 4, "more than --limit-memory 8"},
         {{"iris", "--blades", "2"}, 2, "--blades: '2' is not a whole number from 3 to 64"},
         {{"irsi"}, 2, "did you mean 'iris'?"},
+        {{"iris", "--dust", "-1"}, 2, "--dust: '-1' is not a whole number from 0 to 10000"},
+        {{"iris", "--occluder", "disk"}, 2, "did you mean 'disc'?"},
+        {{"circle", "--occluder", "disc"}, 3, "the aperture is closed"},
         {{"none.png"}, 3, "none.png: cannot open"},
         {{"iris", "-o", "a.jpg"}, 2, "pictures end in .png"},
         {{"iris", "-o", "none/a.png"}, 5, "none/a.png: cannot be created"},

@@ -117,6 +117,12 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
         h.value(o.rotation_deg).value(o.bow).value(o.aspect).value(o.obstruction).value(o.clip);
         h.value(o.visibility).value(o.visibility_samples).value(o.neighbourhood_px);
         h.value(o.focus_m).value(o.focus_steps);
+        const LensDirt& d = o.dirt;
+        h.value(d.seed).value(d.noise).value(d.noise_cell).value(d.noise_stretch).value(d.noise_angle_deg);
+        h.value(d.dust).value(d.dust_radius).value(d.dust_softness).value(d.occluder);
+        h.value(d.scratches).value(d.scratch_width).value(d.scratch_length).value(d.scratch_spread_deg);
+        h.value(d.eyelashes).value(d.eyelash_width).value(d.eyelash_length);
+        h.value(d.occluder_diameter).value(d.occluder_x).value(d.occluder_y);
         h.value(o.blades).value(o.vanes).value(o.slits).value(o.lines).value(o.rings);
         h.value(o.focal_length_mm).value(o.f_number).value(o.sensor_height_mm).value(o.temperature_kelvin);
         for (const Light& l : s.lights) {
