@@ -187,8 +187,8 @@ TEST(ApertureFile, InAScene) {
     EXPECT_EQ(lens.mask.width, 3) << "the pupil is what is open";
     EXPECT_NEAR(lens.pitch_m, 1e-3, 1e-12);
     EXPECT_LT(open_area(lens.mask.view()), 2.25) << "less dust";
-    EXPECT_NE(error("aperture = \"circle\"\noccluder = \"disc\"\noccluder_diameter = 2").find("is closed"),
-              std::string::npos);
+    const Scene eclipse = build("aperture = \"circle\"\noccluder = \"disc\"\noccluder_diameter = 2");
+    EXPECT_THROW(lens_aperture(eclipse.optics), InputError);
     EXPECT_NE(error("aperture = \"file\"").find("[optics] needs 'file'"), std::string::npos);
     EXPECT_NE(error("aperture = \"file\"\nfile = \"none.png\"").find("s.toml:11"), std::string::npos);
     EXPECT_NE(error("aperture = \"file\"\nfile = \"../x.png\"").find("leads outside"), std::string::npos);
