@@ -14,6 +14,7 @@ namespace {
 constexpr int rows_per_item = 32;
 constexpr std::int64_t cells_per_band = std::int64_t{1} << 22;
 constexpr std::int64_t least_columns_per_band = 128;
+constexpr double most_frequencies = 0x1p36;  // minutes, and half a gigabyte a band
 
 /// Cells around samples k cell: columns k = 0 to columns - 1 of the half plane u >= 0, of whose first only
 /// the right half counts; rows k = -rows to rows.
@@ -32,7 +33,8 @@ Cells cells_of(double cell, int radius_px, const std::vector<PixelLight>& lights
     for (const PixelLight& light : lights)
         widest = std::max(widest, light.pixel);
     const double reach = std::ceil((radius_px + 0.5) * widest / cell);
-    if (!(reach < (1 << 20))) throw LimitError("a point spread function needs too many frequencies");
+    if (!(2 * (reach + 2) * (reach + 2) < most_frequencies))
+        throw LimitError("a point spread function needs too many frequencies");
     const int count = static_cast<int>(reach) + 1;
     return {cell, count + 1, count};
 }

@@ -73,6 +73,34 @@ TEST(FarField, WideGreyMasksKeepTheirArea) {
     }
 }
 
+/// Every pixel of the caller's memory is written, and nothing beside it.
+TEST(FarField, WritesAllOfItsTargetAndNothingElse) {
+    for (const NamedMask& m : hard_masks(32)) {
+        for (const FrequencyGrid& grid : natural_grids(32)) {
+            for (const FarFieldMethod method : {FarFieldMethod::runs, FarFieldMethod::raster_fft}) {
+                FarFieldParams params;
+                params.method = method;
+                params.symmetry = false;
+                const Field field = far_field(m.aperture, grid, params, {});
+                const int stride = grid.width + 3;
+                Image<float> re(stride, grid.height, NAN), im = re, power = re;
+                far_field_into(m.aperture, grid, params,
+                               {re.pixels.data(), im.pixels.data(), power.pixels.data(), stride}, {});
+                for (int y = 0; y < grid.height; ++y) {
+                    for (int x = 0; x < stride; ++x) {
+                        const bool inside = x < grid.width;
+                        ASSERT_EQ(std::isnan(re(x, y)), !inside) << m.name << " " << x << ", " << y;
+                        ASSERT_EQ(std::isnan(power(x, y)), !inside) << m.name << " " << x << ", " << y;
+                        if (!inside) continue;
+                        ASSERT_EQ(re(x, y), field.re(x, y)) << m.name << " " << x << ", " << y;
+                        ASSERT_EQ(im(x, y), field.im(x, y)) << m.name << " " << x << ", " << y;
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Zooms, odd steps, windows far out, single pixels.
 std::vector<FrequencyGrid> other_grids(int size) {
     const double step = 1.0 / size;
