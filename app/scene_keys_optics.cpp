@@ -167,7 +167,7 @@ std::vector<KeySpec> glare_keys() {
             .or_word("auto")
             .or_else("auto"),
         number_key("tolerance", "Error of the pattern's colours that \"auto\" aims at.")
-            .in({1e-6, 1})
+            .in({1e-4, 0.5})
             .or_else(d.tolerance),
         integer_key("radius_px", "How far light spreads; what would fall farther is counted in by scaling.")
             .in({1, 4096})
