@@ -114,6 +114,9 @@ inline std::vector<NamedMask> hard_masks(int size) {
     custom("full", size, size, [](int, int) { return 1.0f; });
     custom("oblong noise", size / 2 + 3, size - 5,
            [&](int, int) { return uniform(random) < 0.4f ? 1.0f : 0.0f; });
+    custom("same top and bottom", size, size, [&](int x, int y) {
+        return (x * x + 3 * x + (2 * y - size + 1) * (2 * y - size + 1) / 8) % 7 < 3 ? 1.0f : 0.0f;
+    });
     custom("one texel", 1, 1, [](int, int) { return 0.5f; });
     custom("one hole", 9, 7, [](int x, int y) { return x == 3 && y == 4 ? 0.0f : 1.0f; });
     return masks;
