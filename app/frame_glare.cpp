@@ -41,7 +41,8 @@ void prepare_psf(const Scene& scene, const Exec& exec, std::optional<KeptPsf>& k
     if (stats.kept) return;
     const Stopwatch watch;
     const Psf psf = far_field_psf(lens_aperture(scene.optics), psf_params(scene.optics, scene.render), exec);
-    kept = KeptPsf{lens, pixel, unit_kernel(psf.kernel), psf.cycles_per_px, psf.captured, psf.wavelengths};
+    kept = KeptPsf{
+        lens, pixel, unit_kernel(psf.kernel), psf.plan.cycles_per_px, psf.captured, psf.plan.wavelengths};
     stats.psf_s = watch.seconds();
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/aperture_file.h"
+#include "app/progress.h"
 #include "core/error.h"
 #include "core/num.h"
 #include "optics/aperture_dirt.h"
@@ -56,6 +57,10 @@ LightSource source_of(const std::string& name) {
     }
     CHECK(false, "no light " + name);
     return {};
+}
+
+std::string duration(double ms) {
+    return ms < 1000 ? fmt::format("{:.2g} ms", ms) : duration_text(1e-3 * ms);
 }
 
 std::string aperture_text(const OpticsSettings& o) {
@@ -144,11 +149,11 @@ std::string lens_text(const OpticsSettings& o, const RenderSettings& render) {
         "glare     above {:.4g} after exposure: {} x {} pixels, {:.4g} cycles of the pupil a pixel "
         "(550 nm), {} light\n",
         o.clip, side, side, cycles, o.light);
-    const Aperture aperture = lens_aperture(o);
-    const FarFieldReport plan =
-        plan_far_field(aperture, centred_grid(side, side, cycles / aperture.mask.width), {});
-    out += fmt::format("          pattern, each wavelength: {}\n",
-                       plan.reason.empty() ? far_field_method_name(plan.method) : plan.reason);
+    const PsfPlan plan = plan_far_field_psf(lens_aperture(o), params);
+    out += fmt::format(
+        "          its pattern: {} at {:.4g} million frequencies, {} wavelengths, about {} on one thread\n",
+        far_field_method_name(plan.method), 1e-6 * static_cast<double>(plan.frequencies), plan.wavelengths,
+        duration(plan.cost_ms));
     const GlareCost cost = most_glare(render.width, render.height, side, glare_params(o, render));
     return out + fmt::format(
                      "          at most {:.4g} ms and {:.4g} MiB to spread it (one thread, every pixel "

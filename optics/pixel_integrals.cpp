@@ -198,9 +198,17 @@ Image<Vec3d> integrate_over_pixels(const PowerSource& power, double cell, int ra
     return whole_kernel(half, radius_px, cell * cell);
 }
 
-std::int64_t pixel_integral_samples(double cell, int radius_px, const std::vector<PixelLight>& lights) {
+PixelIntegralWork pixel_integral_work(double cell, int radius_px, const std::vector<PixelLight>& lights) {
     const Cells cells = cells_of(cell, radius_px, lights);
-    return std::int64_t{cells.columns} * cells.height();
+    return {std::int64_t{cells.columns} * cells.height(),
+            {cells.columns_per_band(), cells.height(), 0, -cells.rows * cell, cell, cell}};
+}
+
+double pixel_integral_cost_ms(const PixelIntegralWork& work, int radius_px, std::size_t lights) {
+    constexpr double ns_per_cell = 8, ns_per_pixel = 8;
+    const double half_kernel = (radius_px + 1.0) * (2.0 * radius_px + 1);
+    return 1e-6 * (ns_per_cell * static_cast<double>(work.frequencies) +
+                   ns_per_pixel * half_kernel * static_cast<double>(lights));
 }
 
 }  // namespace obscura

@@ -13,6 +13,7 @@
 #include "core/num.h"
 #include "core/parallel.h"
 #include "optics/aperture_extent.h"
+#include "optics/far_field_costs.h"
 #include "optics/outline_coverage.h"
 #include "optics/pixel_integrals.h"
 
@@ -197,40 +198,76 @@ Image<Vec3f> balanced_kernel(Image<Vec3d> xyz, const LightSpectrum& light) {
 
 }  // namespace
 
-Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec) {
+namespace {
+
+/// All that is decided before anything is computed.
+struct Job {
+    Pupil pupil;
+    double cell = 0;  ///< cycles per texel of the pupil
+    std::vector<PixelLight> lights;
+    Fading fading;
+    int lit_radius = 0;
+    PixelIntegralWork work;
+    PsfPlan plan;
+};
+
+double far_field_ms(const Pupil& pupil, const PixelIntegralWork& work) {
+    const double bands =
+        static_cast<double>(work.frequencies) / (static_cast<double>(work.band.width) * work.band.height);
+    if (pupil.far_field.method == FarFieldMethod::polygon)
+        return 1e-6 * bands * far_field_polygon_cost_ns(pupil.aperture.outline, work.band);
+    return bands * plan_far_field(pupil.aperture, work.band, pupil.far_field).cost_ms;
+}
+
+Job job_of(const Aperture& aperture, const PsfParams& params) {
     check_params(params);
     const OpenExtent coarse = open_extent(aperture.mask.view());
     if (coarse.width == 0) throw InputError("aperture", "lets no light through");
 
     // Sizes: of a pixel in cycles per texel, per wavelength, and of the cells that sample the power.
+    Job job;
     const double diameter = aperture.mask.width;
     const double reference_cycles = cycles_per_pixel(params, reference_nm);
     const int count = wavelength_count(aperture, params, reference_cycles / diameter);
     const std::vector<SpectralSample> samples = spectral_samples(params.light, count);
     const double highest =
         (params.radius_px + 0.5) * cycles_per_pixel(params, samples.front().wavelength_nm) / diameter;
-    const Pupil pupil = pupil_for(aperture, highest);
-    const double texels = pupil.aperture.mask.width;
-    const double cell = cell_for(pupil, reference_cycles / texels, params.tolerance);
-
-    std::vector<PixelLight> lights;
+    job.pupil = pupil_for(aperture, highest);
+    const double texels = job.pupil.aperture.mask.width;
+    job.cell = cell_for(job.pupil, reference_cycles / texels, params.tolerance);
     for (const SpectralSample& sample : samples)
-        lights.push_back(
-            {cycles_per_pixel(params, sample.wavelength_nm) / texels, sample.xyz * (1 / pupil.power)});
+        job.lights.push_back(
+            {cycles_per_pixel(params, sample.wavelength_nm) / texels, sample.xyz * (1 / job.pupil.power)});
     const double blue_nm = std::max(samples.front().wavelength_nm, shortest_of_weight_nm);
-    const Fading fading = fading_of(pupil, cycles_per_pixel(params, blue_nm) / texels);
-    const int lit_radius = fading.radius(params.radius_px);
-    const auto power = [&](const FrequencyGrid& grid) { return pupil_power(pupil, grid, exec); };
-    Image<Vec3d> xyz =
-        faded(integrate_over_pixels(power, cell, lit_radius, lights, exec), fading, params.radius_px);
+    job.fading = fading_of(job.pupil, cycles_per_pixel(params, blue_nm) / texels);
+    job.lit_radius = job.fading.radius(params.radius_px);
 
+    job.work = pixel_integral_work(job.cell, job.lit_radius, job.lights);
+    job.plan.wavelengths = static_cast<int>(samples.size());
+    job.plan.cycles_per_px = reference_cycles;
+    job.plan.highest_cycles_per_texel = highest * diameter / texels;
+    job.plan.method =
+        plan_far_field(job.pupil.aperture, centred_grid(64, 64, job.cell), job.pupil.far_field).method;
+    job.plan.frequencies = job.work.frequencies;
+    job.plan.cost_ms = far_field_ms(job.pupil, job.work) +
+                       pixel_integral_cost_ms(job.work, job.lit_radius, job.lights.size());
+    return job;
+}
+
+}  // namespace
+
+PsfPlan plan_far_field_psf(const Aperture& aperture, const PsfParams& params) {
+    return job_of(aperture, params).plan;
+}
+
+Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec) {
+    const Job job = job_of(aperture, params);
+    const auto power = [&](const FrequencyGrid& grid) { return pupil_power(job.pupil, grid, exec); };
+    Image<Vec3d> xyz = faded(integrate_over_pixels(power, job.cell, job.lit_radius, job.lights, exec),
+                             job.fading, params.radius_px);
     Psf psf;
+    psf.plan = job.plan;
     psf.captured = sum_of(xyz).y;
-    psf.wavelengths = static_cast<int>(samples.size());
-    psf.cycles_per_px = reference_cycles;
-    psf.highest_cycles_per_texel = highest * diameter / texels;
-    psf.method = plan_far_field(pupil.aperture, centred_grid(64, 64, cell), pupil.far_field).method;
-    psf.frequencies = pixel_integral_samples(cell, lit_radius, lights);
     psf.kernel = balanced_kernel(std::move(xyz), params.light);
     return psf;
 }

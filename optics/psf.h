@@ -31,15 +31,8 @@ struct PsfParams {
     SpectralMethod method = SpectralMethod::exact;  ///< far_field_colour() only
 };
 
-/// Rows top to bottom as on the picture: the image is inverted in both axes, as lenses do (which cannot be
-/// seen: the pattern of any real mask is its own reflection through the centre).
-struct Psf {
-    /// Linear sRGB, no channel negative, side 2 radius + 1, the point at the centre; sums to the light's
-    /// colour of luminance 1 (white for D65), so spreading light by it keeps its energy.
-    Image<Vec3f> kernel;
-    /// Share of the luminance through the aperture that the kernel's square catches; the rest falls farther
-    /// out and is counted in by scaling.
-    double captured = 0;
+/// What far_field_psf() would do.
+struct PsfPlan {
     int wavelengths = 0;
     double cycles_per_px =
         0;  ///< width of a pixel at 550 nm, in cycles per aperture diameter: pixel / (lambda N)
@@ -50,8 +43,21 @@ struct Psf {
     /// Where the outline is known, it is exact in closed form (method polygon: no limit), or a mask as fine
     /// as needed, up to 4096 texels, is made of it, and this is about that one.
     double highest_cycles_per_texel = 0;
-    FarFieldMethod method = FarFieldMethod::automatic;  ///< what computed the far field
-    std::int64_t frequencies = 0;                       ///< at which it was computed
+    FarFieldMethod method = FarFieldMethod::automatic;  ///< what computes the far field
+    std::int64_t frequencies = 0;                       ///< at which it is computed
+    double cost_ms = 0;                                 ///< estimate for one thread
+};
+
+/// Rows top to bottom as on the picture: the image is inverted in both axes, as lenses do (which cannot be
+/// seen: the pattern of any real mask is its own reflection through the centre).
+struct Psf {
+    /// Linear sRGB, no channel negative, side 2 radius + 1, the point at the centre; sums to the light's
+    /// colour of luminance 1 (white for D65), so spreading light by it keeps its energy.
+    Image<Vec3f> kernel;
+    /// Share of the luminance through the aperture that the kernel's square catches; the rest falls farther
+    /// out and is counted in by scaling.
+    double captured = 0;
+    PsfPlan plan;
 };
 
 /// An outline, where there is one, must be that of the mask. The mask spans the entrance pupil's diameter,
@@ -59,6 +65,9 @@ struct Psf {
 /// (see optics/pixel_integrals.h). Throws UsageError for parameters out of range, LimitError for far too many
 /// frequencies, InputError for an aperture that lets nothing through.
 Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec);
+
+/// The same without computing it; throws as it does. Of an outline that wants a finer mask, that is made.
+PsfPlan plan_far_field_psf(const Aperture& aperture, const PsfParams& params);
 
 /// The coloured far field alone: pixel (x, y) shows frequency grid(x, y) at reference_nm, all wavelengths
 /// added (equation 3.16). Linear sRGB, luminance 1 at frequency 0; single colours may lie outside the gamut

@@ -174,8 +174,8 @@ TEST(PixelIntegrals, CountsWhatItAsksFor) {
             return Image<float>(grid.width, grid.height);
         },
         0.002, 40, lights, {});
-    EXPECT_EQ(asked, pixel_integral_samples(0.002, 40, lights));
-    EXPECT_THROW(pixel_integral_samples(1e-7, 40, lights), LimitError);
+    EXPECT_EQ(asked, pixel_integral_work(0.002, 40, lights).frequencies);
+    EXPECT_THROW(pixel_integral_work(1e-7, 40, lights), LimitError);
 }
 
 }  // namespace

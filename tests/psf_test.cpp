@@ -43,7 +43,7 @@ TEST(Psf, AiryDiscsHoldTheirEncircledEnergy) {
     PsfParams params = lens(16, 0.55, 100);
     params.light = {LightSource::monochromatic, 0, 550};
     const Psf psf = far_field_psf(aperture_of(ApertureKind::circle, 512), params, {});
-    EXPECT_NEAR(psf.cycles_per_px, 0.0625, 1e-12);
+    EXPECT_NEAR(psf.plan.cycles_per_px, 0.0625, 1e-12);
     const auto encircled = [](double cycles) {
         return 1 - std::pow(std::cyl_bessel_j(0.0, M_PI * cycles), 2) -
                std::pow(std::cyl_bessel_j(1.0, M_PI * cycles), 2);
@@ -56,7 +56,7 @@ TEST(Psf, AiryDiscsHoldTheirEncircledEnergy) {
                 int inside = 0;
                 for (int k = 0; k < 100; ++k) {
                     const double dx = x - 0.45 + 0.1 * (k % 10), dy = y - 0.45 + 0.1 * (k / 10);
-                    inside += std::hypot(dx, dy) * psf.cycles_per_px < cycles ? 1 : 0;
+                    inside += std::hypot(dx, dy) * psf.plan.cycles_per_px < cycles ? 1 : 0;
                 }
                 share += luminance(psf, 100 + x, 100 + y) * inside / 100;
             }
@@ -191,7 +191,7 @@ TEST(Psf, ChoosesEnoughWavelengths) {
         PsfParams params = lens(11, pixel_um, 48);
         const Aperture hept = aperture_of(ApertureKind::iris, 256);
         const Psf chosen = far_field_psf(hept, params, {});
-        params.wavelengths = 4 * chosen.wavelengths;
+        params.wavelengths = 4 * chosen.plan.wavelengths;
         const Psf many = far_field_psf(hept, params, {});
         params.wavelengths = 12;
         const Psf few = far_field_psf(hept, params, {});
@@ -222,10 +222,10 @@ TEST(Psf, OutlinesServeWhereMasksDoNot) {
     bare.outline = {};
     const Psf exact = far_field_psf(hexagon, params, {}), mask = far_field_psf(outlined, params, {});
     const Psf texels = far_field_psf(bare, params, {});
-    EXPECT_EQ(exact.method, FarFieldMethod::polygon);
-    EXPECT_NE(mask.method, FarFieldMethod::polygon);
-    EXPECT_LT(mask.highest_cycles_per_texel, 0.26);
-    EXPECT_GT(texels.highest_cycles_per_texel, 1);
+    EXPECT_EQ(exact.plan.method, FarFieldMethod::polygon);
+    EXPECT_NE(mask.plan.method, FarFieldMethod::polygon);
+    EXPECT_LT(mask.plan.highest_cycles_per_texel, 0.26);
+    EXPECT_GT(texels.plan.highest_cycles_per_texel, 1);
     // The tip of the streak along x, which the texels of an upright edge dim.
     double shown[2] = {0, 0};
     for (int x = 36; x < 49; ++x) {
@@ -257,7 +257,7 @@ TEST(Psf, CellsAreFineEnough) {
         const Psf psf = far_field_psf(hept, params, {});
         params.tolerance = 1e-4;
         const Psf fine = far_field_psf(hept, params, {});
-        ASSERT_GT(fine.frequencies, 3 * psf.frequencies);
+        ASSERT_GT(fine.plan.frequencies, 3 * psf.plan.frequencies);
         double mean = 0, worst = 0;
         for (int y = 0; y < 41; ++y) {
             for (int x = 0; x < 41; ++x) {
@@ -304,6 +304,27 @@ TEST(Psf, RefusesWhatNoLensHas) {
     const Psf dot = far_field_psf(hept, lens(8, 6, 0), {});
     ASSERT_EQ(dot.kernel.pixels.size(), 1u);
     EXPECT_NEAR(dot.kernel.pixels[0].x, 1, 1e-6);
+}
+
+TEST(Psf, APlanSaysWhatIsDone) {
+    const Aperture aperture = make_aperture({}, 128, 0.005);
+    PsfParams params;
+    params.radius_px = 12;
+    const PsfPlan plan = plan_far_field_psf(aperture, params);
+    const Psf psf = far_field_psf(aperture, params, {});
+    EXPECT_EQ(plan.method, psf.plan.method);
+    EXPECT_EQ(plan.frequencies, psf.plan.frequencies);
+    EXPECT_EQ(plan.wavelengths, psf.plan.wavelengths);
+    EXPECT_GT(plan.cost_ms, 0);
+
+    // Twice the pixel in cycles, twice as far: four times the frequencies, and the time of them.
+    params.f_number /= 8;
+    params.wavelengths = plan.wavelengths;
+    const PsfPlan once = plan_far_field_psf(aperture, params);
+    params.radius_px *= 2;
+    const PsfPlan twice = plan_far_field_psf(aperture, params);
+    EXPECT_NEAR(static_cast<double>(twice.frequencies) / static_cast<double>(once.frequencies), 4, 0.3);
+    EXPECT_NEAR(twice.cost_ms / once.cost_ms, 4, 0.5);
 }
 
 }  // namespace
