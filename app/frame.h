@@ -19,7 +19,8 @@ namespace obscura {
 struct FrameOptions {
     Region crop;  ///< pixels of the whole picture; empty (width or height 0) = all of it
     bool depth = false, normal = false, albedo = false, object = false, shadow = false;  ///< AOVs wanted
-    /// Share of the tiles done, rising to 1; called from any thread, one call at a time, about 200 times.
+    /// Share of the work done, tiles and the lens's pattern, rising to 1; called from any thread, one call at
+    /// a time, some hundred times.
     std::function<void(double)> progress;
     const std::atomic<bool>* cancel = nullptr;  ///< set it and the remaining tiles, of shadow
                                                 ///< maps too, are left out

@@ -34,13 +34,21 @@ bool anything_clips(ImageView<const Vec3f> radiance, double clip) {
     return false;
 }
 
-void prepare_psf(const Scene& scene, const Exec& exec, std::optional<KeptPsf>& kept, GlareStats& stats) {
+struct Cancelled {};
+
+void prepare_psf(const Scene& scene, const FrameOptions& options, const Exec& exec,
+                 std::optional<KeptPsf>& kept, GlareStats& stats) {
     const OpticsSettings lens = of_the_kernel(scene.optics);
     const double pixel = pixel_m(scene.optics, scene.render);
     stats.kept = kept && kept->lens == lens && kept->pixel_m == pixel;
     if (stats.kept) return;
     const Stopwatch watch;
-    const Psf psf = far_field_psf(lens_aperture(scene.optics), psf_params(scene.optics, scene.render), exec);
+    const Psf psf = far_field_psf(lens_aperture(scene.optics), psf_params(scene.optics, scene.render), exec,
+                                  [&](double share) {
+                                      if (options.cancel && options.cancel->load(std::memory_order_relaxed))
+                                          throw Cancelled{};
+                                      if (options.progress) options.progress(share);
+                                  });
     kept = KeptPsf{
         lens, pixel, unit_kernel(psf.kernel), psf.plan.cycles_per_px, psf.captured, psf.plan.wavelengths};
     stats.psf_s = watch.seconds();
@@ -59,7 +67,8 @@ void crop_channel(const Region& crop, Pixels& channel) {
 
 }  // namespace
 
-void add_frame_glare(const Scene& scene, const Exec& exec, std::optional<KeptPsf>& kept, Frame& frame) {
+void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec& exec,
+                     std::optional<KeptPsf>& kept, Frame& frame) {
     if (!scene.optics.enabled) return;
     const Stopwatch watch;
     GlareStats& stats = frame.stats.glare.emplace();
@@ -73,7 +82,12 @@ void add_frame_glare(const Scene& scene, const Exec& exec, std::optional<KeptPsf
         stats.total_s = watch.seconds();
         return;
     }
-    prepare_psf(scene, exec, kept, stats);
+    try {
+        prepare_psf(scene, options, exec, kept, stats);
+    } catch (const Cancelled&) {
+        frame.complete = false;
+        return;
+    }
     GlareReport report;
     if (wants_source_kernels(scene.optics)) {
         const Stopwatch own;

@@ -19,8 +19,10 @@ struct KeptPsf {
 };
 
 /// Spreads the light of the frame's bright pixels, when the scene has a lens; the frame is the whole picture.
-/// Nothing is computed when nothing clips. Fills stats.glare.
-void add_frame_glare(const Scene& scene, const Exec& exec, std::optional<KeptPsf>& kept, Frame& frame);
+/// Nothing is computed when nothing clips. Fills stats.glare. Options: `progress` hears which share of the
+/// pattern is done; `cancel` ends it and leaves the frame incomplete.
+void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec& exec,
+                     std::optional<KeptPsf>& kept, Frame& frame);
 
 /// Leaves of a whole picture's channels those pixels that lie in the crop.
 void crop_frame(const Region& crop, Frame& frame);

@@ -176,9 +176,14 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     wanted.depth |= wants_source_kernels(scene.optics);
     wanted.object |= wants_source_kernels(scene.optics);
     size_frame(scene.optics.enabled ? whole : crop, wanted, frame);
+    // A pattern may take longer than the picture: half of the progress is its own.
+    const bool has_glare = scene.optics.enabled && options.progress;
+    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 * share); };
     render_tiles(tiles, wanted, exec, frame);
     frame.stats.tiles_s = shade.seconds();
-    if (frame.complete) add_frame_glare(scene, exec, cache.psf, frame);
+    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 + 0.5 * share); };
+    if (frame.complete) add_frame_glare(scene, wanted, exec, cache.psf, frame);
+    if (has_glare && frame.complete) options.progress(1);
     if (!options.depth) frame.depth_m = {};
     if (!options.object) frame.object = {};
     crop_frame(crop, frame);

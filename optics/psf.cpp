@@ -260,9 +260,15 @@ PsfPlan plan_far_field_psf(const Aperture& aperture, const PsfParams& params) {
     return job_of(aperture, params).plan;
 }
 
-Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec) {
+Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec,
+                  const std::function<void(double)>& progress) {
     const Job job = job_of(aperture, params);
-    const auto power = [&](const FrequencyGrid& grid) { return pupil_power(job.pupil, grid, exec); };
+    std::int64_t done = 0;
+    const auto power = [&](const FrequencyGrid& grid) {
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(job.work.frequencies));
+        done += std::int64_t{grid.width} * grid.height;
+        return pupil_power(job.pupil, grid, exec);
+    };
     Image<Vec3d> xyz = faded(integrate_over_pixels(power, job.cell, job.lit_radius, job.lights, exec),
                              job.fading, params.radius_px);
     Psf psf;

@@ -3,6 +3,7 @@
 // true size in pixels.
 
 #include <cstdint>
+#include <functional>
 
 #include "core/image.h"
 #include "core/isa.h"
@@ -64,7 +65,10 @@ struct Psf {
 /// focal_length / f_number, with its width. A pixel gathers the light on its whole square, of all wavelengths
 /// (see optics/pixel_integrals.h). Throws UsageError for parameters out of range, LimitError for far too many
 /// frequencies, InputError for an aperture that lets nothing through.
-Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec);
+/// `progress` hears in this thread, many times when there is much to do, which share is done; what it throws
+/// ends the work.
+Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec& exec,
+                  const std::function<void(double)>& progress = {});
 
 /// The same without computing it; throws as it does. Of an outline that wants a finer mask, that is made.
 PsfPlan plan_far_field_psf(const Aperture& aperture, const PsfParams& params);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "app/check_command.h"
 #include "app/lens.h"
@@ -121,6 +124,24 @@ TEST(FrameGlare, ACropIsPartOfTheWhole) {
     }
 }
 
+TEST(FrameGlare, ThePatternTellsItsProgressAndCanBeStopped) {
+    const Scene scene = scene_of(night(lens));
+    std::vector<double> shares;
+    std::atomic<bool> cancel{false};
+    FrameOptions options;
+    options.cancel = &cancel;
+    options.progress = [&](double share) { shares.push_back(share); };
+    EXPECT_TRUE(render_frame(scene, options, {}).complete);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.back(), 1);
+
+    // All tiles are done at a half: what is stopped from there on is the pattern.
+    options.progress = [&](double share) { cancel = share >= 0.5; };
+    const Frame stopped = render_frame(scene, options, {});
+    EXPECT_FALSE(stopped.complete);
+    EXPECT_EQ(stopped.stats.glare->kernels, 0);
+}
+
 TEST(FrameGlare, NothingClipsNothingChanges) {
     const Frame plain = render_frame(scene_of(night("")));
     const Frame glare = render_frame(scene_of(night(std::string(lens) + "clip = 2000\n")));
@@ -192,8 +213,9 @@ TEST(FrameGlare, TheCameraDecidesThePixelsTrueSize) {
 TEST(FrameGlare, CheckTellsWhatItWouldDo) {
     const Scene scene = scene_of(night(std::string(lens) + "focal_length_mm = 50\n"));
     const std::string text = lens_text(scene.optics, scene.render);
-    for (const char* part : {"slit, 50 mm at f/200 (pupil 0.25 mm)", "pixels of 758.3 um", "41 x 41 pixels",
-                             "cycles of the pupil a pixel", "MiB to spread it"})
+    for (const char* part :
+         {"slit, 50 mm at f/200 (pupil 0.25 mm)", "pixels of 758.3 um", "41 x 41 pixels",
+          "cycles of the pupil a pixel", "its pattern: ", "5 wavelengths", "MiB to spread it"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
     EXPECT_EQ(lens_text(scene_of(night("")).optics, scene.render), "");
 }
