@@ -25,21 +25,6 @@ void set_work(FarRun& run, MethodJob& job, const std::function<void(const FieldT
     };
 }
 
-/// The planner's method, from tables where it has any.
-void run_with_tables(const FarRun& run, const NaturalTransform& tables, FarFieldMethod method,
-                     const FieldTarget& target) {
-    FarFieldParams params;
-    params.method = method;
-    params.method = plan_far_field(run.shape.mask, run.grid, params).method;
-    const auto mask = run.shape.mask.mask.view();
-    if (params.method == FarFieldMethod::runs)
-        far_field_runs(mask, tables, target, run.exec);
-    else if (params.method == FarFieldMethod::raster_fft)
-        far_field_raster_fft(mask, tables, target, run.exec);
-    else
-        far_field_into(run.shape.mask, run.grid, params, target, run.exec);
-}
-
 }  // namespace
 
 FarRun far_run(const char* part, DiffractionCase shape, const FrequencyGrid& grid, int most) {
@@ -90,7 +75,9 @@ MethodJob kept_tables(FarRun& run, const std::shared_ptr<NaturalTransform>& tabl
     job.row.one_call = false;
     job.row.prepare_ms = prepare_ms;
     set_work(run, job, [&run, tables, method](const FieldTarget& target) {
-        run_with_tables(run, *tables, method, target);
+        FarFieldParams params;
+        params.method = method;
+        far_field_into(run.shape.mask, run.grid, params, *tables, target, run.exec);
     });
     return job;
 }

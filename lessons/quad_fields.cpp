@@ -26,7 +26,7 @@ Field field_of_quads(const QuadList& quads, const FrequencyGrid& grid, const Exe
 
 Field field_of_runs(ImageView<const float> mask, const FrequencyGrid& grid, const Exec& exec) {
     Field field = empty_field(grid);
-    far_field_runs(mask, grid, target_of(field), exec);
+    far_field_runs(mask, row_runs(mask, exec.isa), grid, target_of(field), exec);
     return field;
 }
 

@@ -7,7 +7,10 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "optics/far_field_methods.h"
+#include "optics/far_field_plan.h"
 #include "optics/half_plane.h"
+#include "optics/natural_transform.h"
+#include "optics/row_runs.h"
 
 namespace obscura {
 namespace {
@@ -17,10 +20,27 @@ void check_grid(const FrequencyGrid& grid) {
     CHECK(std::isfinite(grid.first_u) && std::isfinite(grid.first_v));
 }
 
+/// Throws when a texel is no number: it would spread over the whole pattern.
+void check_texels(ImageView<const float> mask, const RowRuns& runs, bool searched) {
+    // A texel that is no number is a run of its own.
+    bool finite = true;
+    for (const float weight : runs.weight)
+        finite = finite && std::isfinite(weight);
+    for (int y = 0; !searched && y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x)
+            finite = finite && std::isfinite(mask(x, y));
+    }
+    if (!finite) throw InputError("far field", "the mask holds a value that is not finite");
+}
+
+/// `tables`: of the grid, or nullptr.
 FarFieldReport compute(const Aperture& aperture, const FrequencyGrid& grid, const FarFieldParams& params,
-                       const FieldTarget& target, const Exec& exec) {
-    FarFieldReport report = plan_far_field(aperture, grid, params);
+                       const NaturalTransform* tables, const FieldTarget& target, const Exec& exec) {
     const auto mask = aperture.mask.view();
+    const bool searched = params.method == FarFieldMethod::automatic || params.method == FarFieldMethod::runs;
+    const RowRuns runs = searched ? row_runs(mask, exec.isa) : RowRuns{};
+    check_texels(mask, runs, searched);
+    FarFieldReport report = plan_far_field(aperture, runs, grid, params);
     switch (report.method) {
         case FarFieldMethod::automatic:
         case FarFieldMethod::direct:
@@ -39,10 +59,16 @@ FarFieldReport compute(const Aperture& aperture, const FrequencyGrid& grid, cons
             far_field_levels(quads_of(mask), grid, target, exec);
             break;
         case FarFieldMethod::runs:
-            far_field_runs(mask, grid, target, exec);
+            if (tables != nullptr)
+                far_field_runs(mask, runs, *tables, target, exec);
+            else
+                far_field_runs(mask, runs, grid, target, exec);
             break;
         case FarFieldMethod::raster_fft:
-            far_field_raster_fft(mask, grid, target, exec);
+            if (tables != nullptr)
+                far_field_raster_fft(mask, *tables, target, exec);
+            else
+                far_field_raster_fft(mask, grid, target, exec);
             break;
         case FarFieldMethod::polygon:
             far_field_polygon(aperture.outline, mask.width, mask.height, grid, target, exec);
@@ -60,12 +86,12 @@ FarFieldReport compute_mirrored(const Aperture& aperture, const FrequencyGrid& g
         return FieldTarget{a ? a->pixels.data() : nullptr, b ? b->pixels.data() : nullptr,
                            c ? c->pixels.data() : nullptr, width};
     };
-    if (!half) return compute(aperture, grid, params, target_of(re, im, power, grid.width), exec);
+    if (!half) return compute(aperture, grid, params, nullptr, target_of(re, im, power, grid.width), exec);
     const auto part = [&](const Image<float>* wanted) {
         return wanted != nullptr ? Image<float>(half->grid.width, half->grid.height) : Image<float>();
     };
     Image<float> part_re = part(re), part_im = part(im), part_power = part(power);
-    const FarFieldReport report = compute(aperture, half->grid, params,
+    const FarFieldReport report = compute(aperture, half->grid, params, nullptr,
                                           target_of(re ? &part_re : nullptr, im ? &part_im : nullptr,
                                                     power ? &part_power : nullptr, half->grid.width),
                                           exec);
@@ -99,7 +125,17 @@ void far_field_into(const Aperture& aperture, const FrequencyGrid& grid, const F
                     const FieldTarget& target, const Exec& exec, FarFieldReport* report) {
     check_grid(grid);
     CHECK(target.stride >= grid.width);
-    const FarFieldReport done = compute(aperture, grid, params, target, exec);
+    const FarFieldReport done = compute(aperture, grid, params, nullptr, target, exec);
+    if (report != nullptr) *report = done;
+}
+
+void far_field_into(const Aperture& aperture, const FrequencyGrid& grid, const FarFieldParams& params,
+                    const NaturalTransform& tables, const FieldTarget& target, const Exec& exec,
+                    FarFieldReport* report) {
+    check_grid(grid);
+    CHECK(target.stride >= grid.width && tables.grid.u.count == grid.width &&
+          tables.grid.v.count == grid.height);
+    const FarFieldReport done = compute(aperture, grid, params, &tables, target, exec);
     if (report != nullptr) *report = done;
 }
 

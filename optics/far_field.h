@@ -24,6 +24,7 @@ struct FrequencyGrid {
     int width = 0, height = 0;
     double first_u = 0, first_v = 0;
     double step_u = 0, step_v = 0;
+    friend bool operator==(const FrequencyGrid&, const FrequencyGrid&) = default;
 };
 
 /// Frequency (centre_u, centre_v) at pixel (width / 2, height / 2).

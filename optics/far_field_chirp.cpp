@@ -91,7 +91,7 @@ ChirpTransform chirp_transform(int rows, const FrequencyGrid& grid) {
 /// transformed by itself; where they have many, the interval from the middle to every edge is, once, and a
 /// run is a difference of two.
 struct RowSums {
-    RowRuns runs;
+    const RowRuns& runs;
     bool tabulated = false;
     std::vector<std::int32_t> begin;  ///< of intervals; by row, or one interval per edge
     std::vector<double> x0, x1;
@@ -101,21 +101,21 @@ struct RowSums {
     }
 };
 
-RowSums row_sums(ImageView<const float> mask, Isa isa) {
+RowSums row_sums(const RowRuns& row_runs, int width) {
     // A transform of an interval costs about as much as this many differences.
     constexpr std::size_t runs_per_transform = 8;
-    RowSums sums{row_runs(mask, isa), false, {}, {}, {}, {}};
-    const double middle = mask.width / 2.0;
-    const std::size_t edges = static_cast<std::size_t>(mask.width) + 1, runs = sums.runs.begin.size();
+    RowSums sums{row_runs, false, {}, {}, {}, {}};
+    const double middle = width / 2.0;
+    const std::size_t edges = static_cast<std::size_t>(width) + 1, runs = sums.runs.begin.size();
     sums.tabulated = edges + runs / runs_per_transform < runs;
     if (sums.tabulated) {
-        for (int x = 0; x <= mask.width; ++x) {
+        for (int x = 0; x <= width; ++x) {
             sums.begin.push_back(x);
             sums.x0.push_back(0);
             sums.x1.push_back(x - middle);
             sums.weight.push_back(-1);  // run_sums16 subtracts ends from beginnings
         }
-        sums.begin.push_back(mask.width + 1);
+        sums.begin.push_back(width + 1);
         return sums;
     }
     sums.begin = sums.runs.first;
@@ -172,10 +172,10 @@ bool natural_is_cheaper(const NaturalGrid& natural, int mask_height, const Frequ
            std::ceil(grid.width / 16.0) * tiles * length * 2 * (log2 + 2);
 }
 
-void far_field_chirp(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
-                     const Exec& exec) {
+void far_field_chirp(ImageView<const float> mask, const RowRuns& runs, const FrequencyGrid& grid,
+                     const FieldTarget& target, const Exec& exec) {
     const ChirpTransform t = chirp_transform(mask.height, grid);
-    const RowSums sums = row_sums(mask, exec.isa);
+    const RowSums sums = row_sums(runs, mask.width);
     const FrequencyRamp ramp{grid.first_u, grid.step_u, grid.width};
     const std::size_t used = std::size_t{16} * static_cast<std::size_t>(mask.height);
     const std::size_t length = std::size_t{16} * static_cast<std::size_t>(t.plan.length());

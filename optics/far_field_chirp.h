@@ -6,12 +6,13 @@
 #include "optics/far_field.h"
 #include "optics/field.h"
 #include "optics/natural_grid.h"
+#include "optics/row_runs.h"
 
 namespace obscura {
 
 /// F of a mask over any grid; see optics/far_field_methods.h.
-void far_field_chirp(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
-                     const Exec& exec);
+void far_field_chirp(ImageView<const float> mask, const RowRuns& runs, const FrequencyGrid& grid,
+                     const FieldTarget& target, const Exec& exec);
 
 /// log2 of the transforms it would use: the cheapest cut of the grid's rows into tiles.
 int chirp_log2_length(int mask_height, int grid_height);

@@ -8,6 +8,7 @@
 #include "optics/far_field.h"
 #include "optics/field.h"
 #include "optics/quads.h"
+#include "optics/row_runs.h"
 
 namespace obscura {
 
@@ -32,9 +33,10 @@ void far_field_edges(ImageView<const float> mask, const FrequencyGrid& grid, dou
 void far_field_levels(const QuadList& quads, const FrequencyGrid& grid, const FieldTarget& target,
                       const Exec& exec);
 
-/// Runs of rows, then FFTs over the rows: natural grids; chirp-z transforms: any other.
-void far_field_runs(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
-                    const Exec& exec);
+/// Runs of rows (row_runs() of the mask), then FFTs over the rows: natural grids; chirp-z transforms: any
+/// other.
+void far_field_runs(ImageView<const float> mask, const RowRuns& runs, const FrequencyGrid& grid,
+                    const FieldTarget& target, const Exec& exec);
 
 /// Natural grids only.
 void far_field_raster_fft(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,

@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "optics/far_field.h"
 #include "optics/far_field_chirp.h"
 #include "optics/far_field_costs.h"
 #include "optics/far_field_methods.h"
+#include "optics/far_field_plan.h"
 #include "optics/natural_grid.h"
 #include "optics/row_runs.h"
 
@@ -33,7 +33,7 @@ constexpr double per_texel = 0.1;        // searched for runs
 constexpr double per_table_entry = 60;   // of natural grids, and of the chirp
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// What decides; one pass over the mask.
+/// What decides.
 struct MaskFacts {
     int width = 0, height = 0;
     double runs = 0;
@@ -43,20 +43,29 @@ struct MaskFacts {
     double texels() const { return static_cast<double>(width) * height; }
 };
 
-MaskFacts facts_of(ImageView<const float> mask) {
-    const RowRuns found = row_runs(mask, best_isa());
-    MaskFacts facts{mask.width, mask.height, static_cast<double>(found.begin.size()), false, 0, 0};
-    facts.mirrored = mask.width % 2 == 0 && same_left_and_right(found, mask.width);
-    std::vector<std::uint8_t> changes(static_cast<std::size_t>(mask.width) + 1);
-    for (const auto* ends : {&found.begin, &found.end}) {
+bool same_rows(const RowRuns& runs, std::size_t a, std::size_t b) {
+    const auto at = [&](std::size_t y) { return static_cast<std::size_t>(runs.first[y]); };
+    const std::size_t count = at(a + 1) - at(a);
+    bool same = count == at(b + 1) - at(b);
+    for (std::size_t i = 0; same && i < count; ++i) {
+        const std::size_t j = at(a) + i, k = at(b) + i;
+        same =
+            runs.begin[j] == runs.begin[k] && runs.end[j] == runs.end[k] && runs.weight[j] == runs.weight[k];
+    }
+    return same;
+}
+
+MaskFacts facts_of(const RowRuns& runs, int width, int height) {
+    MaskFacts facts{width, height, static_cast<double>(runs.begin.size()), false, 0, 0};
+    facts.mirrored = width % 2 == 0 && same_left_and_right(runs, width);
+    std::vector<std::uint8_t> changes(static_cast<std::size_t>(width) + 1);
+    for (const auto* ends : {&runs.begin, &runs.end}) {
         for (const std::int32_t x : *ends)
             changes[static_cast<std::size_t>(x)] = 1;
     }
     facts.columns = static_cast<double>(std::count(changes.begin(), changes.end(), 1));
-    for (int y = 0; y < mask.height; ++y) {
-        const bool repeats = y > 0 && std::equal(mask.row(y), mask.row(y) + mask.width, mask.row(y - 1));
-        if (!repeats) ++facts.rows;
-    }
+    for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y)
+        facts.rows += y == 0 || !same_rows(runs, y, y - 1) ? 1 : 0;
     return facts;
 }
 
@@ -142,7 +151,7 @@ void check_method(const Aperture& aperture, bool natural, const FarFieldParams& 
 
 }  // namespace
 
-FarFieldReport plan_far_field(const Aperture& aperture, const FrequencyGrid& grid,
+FarFieldReport plan_far_field(const Aperture& aperture, const RowRuns& runs, const FrequencyGrid& grid,
                               const FarFieldParams& params) {
     const auto mask = aperture.mask.view();
     const auto natural = natural_grid(mask.width, mask.height, grid);
@@ -153,7 +162,7 @@ FarFieldReport plan_far_field(const Aperture& aperture, const FrequencyGrid& gri
         report.reason = fmt::format("{}: asked for", far_field_method_name(params.method));
         return report;
     }
-    const MaskFacts m = facts_of(mask);
+    const MaskFacts m = facts_of(runs, mask.width, mask.height);
     const bool whole = natural && natural_is_cheaper(*natural, m.height, grid);
     const double shared = per_pixel * pixels_of(grid) + per_texel * m.texels();
     std::vector<Choice> choices{
@@ -170,6 +179,11 @@ FarFieldReport plan_far_field(const Aperture& aperture, const FrequencyGrid& gri
     report.cost_ms = choices[0].ns * 1e-6;
     report.reason = reason_of(choices[0], choices[1], m, natural.has_value());
     return report;
+}
+
+FarFieldReport plan_far_field(const Aperture& aperture, const FrequencyGrid& grid,
+                              const FarFieldParams& params) {
+    return plan_far_field(aperture, row_runs(aperture.mask.view(), best_isa()), grid, params);
 }
 
 }  // namespace obscura

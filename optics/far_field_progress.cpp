@@ -105,6 +105,7 @@ void refresh(FarFieldProgress& progress, ImageView<const float> mask, double are
                    exec, &done);
     progress.refresh_ms = done.cost_ms;
     progress.mask = std::move(aperture.mask);
+    progress.field_grid = grid;
     progress.error_bound = fresh_error * area;
 }
 
@@ -140,9 +141,9 @@ ProgressReport update_far_field(FarFieldProgress& progress, ImageView<const floa
     Field& field = progress.field;
     ProgressReport report;
     if (progress.mask.width != mask.width || progress.mask.height != mask.height ||
-        field.re.width != grid.width || field.re.height != grid.height) {
+        progress.field_grid != grid) {
         report.refreshed = true;
-        report.reason = "computed anew: the first of its size";
+        report.reason = "computed anew: the first of its size and grid";
     } else {
         const Changed box = changed_texels(mask, progress.mask);
         const Image<float> difference = difference_of(mask, progress.mask, box);

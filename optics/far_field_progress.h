@@ -18,7 +18,9 @@ struct FarFieldProgress {
     /// fresh field counts as 1e-6.
     double tolerance = 3e-6;
 
-    Image<float> mask;  ///< of the field below; empty before the first update
+    // Of the field below; empty before the first update.
+    Image<float> mask;
+    FrequencyGrid field_grid;
     Field field;
     double error_bound = 0;  ///< of the field's amplitudes, in texels^2
     double refresh_ms = 0;   ///< what the planner expected of the last computation, one thread
@@ -32,8 +34,8 @@ struct ProgressReport {
     double error_bound = 0;                ///< share of the open area, after the update
 };
 
-/// Brings progress.field to the field of `mask`. A mask of another size starts anew. After a refresh the bits
-/// are those of far_field_into() with default parameters.
+/// Brings progress.field to the field of `mask`. A mask of another size, or another grid, starts anew. After
+/// a refresh the bits are those of far_field_into() with default parameters.
 ProgressReport update_far_field(FarFieldProgress& progress, ImageView<const float> mask, const Exec& exec);
 
 }  // namespace obscura

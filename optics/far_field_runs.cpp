@@ -32,7 +32,7 @@ namespace {
 /// What all groups of columns share.
 struct RunsOfMask {
     const NaturalTransform& transform;
-    RowRuns runs;
+    const RowRuns& runs;
     bool mirrored = false;        ///< sums about the middle, real
     float alternating_scale = 1;  ///< see alternating_scale_of()
 };
@@ -174,11 +174,11 @@ void column_batch(const RunsOfMask& m, int first, int last, Isa isa, Scratch& s,
 
 }  // namespace
 
-void far_field_runs(ImageView<const float> mask, const NaturalTransform& transform, const FieldTarget& target,
-                    const Exec& exec) {
+void far_field_runs(ImageView<const float> mask, const RowRuns& runs, const NaturalTransform& transform,
+                    const FieldTarget& target, const Exec& exec) {
     CHECK(mask.width == transform.width && mask.height == transform.height);
     const NaturalAxis& u = transform.grid.u;
-    RunsOfMask m{transform, row_runs(mask, exec.isa)};
+    RunsOfMask m{transform, runs};
     m.mirrored = mask.width % 2 == 0 && u.log2_period > 0 && same_left_and_right(m.runs, mask.width);
     if (!m.mirrored) m.alternating_scale = alternating_scale_of(m.runs, mask.height);
     const int groups = static_cast<int>(transform.used_groups.size());
@@ -192,13 +192,13 @@ void far_field_runs(ImageView<const float> mask, const NaturalTransform& transfo
     if (m.mirrored) clear_half_period(u, transform.grid.v.count, target);
 }
 
-void far_field_runs(ImageView<const float> mask, const FrequencyGrid& grid, const FieldTarget& target,
-                    const Exec& exec) {
+void far_field_runs(ImageView<const float> mask, const RowRuns& runs, const FrequencyGrid& grid,
+                    const FieldTarget& target, const Exec& exec) {
     const auto natural = natural_grid(mask.width, mask.height, grid);
     if (natural && natural_is_cheaper(*natural, mask.height, grid))
-        far_field_runs(mask, natural_transform(mask.width, mask.height, *natural), target, exec);
+        far_field_runs(mask, runs, natural_transform(mask.width, mask.height, *natural), target, exec);
     else
-        far_field_chirp(mask, grid, target, exec);
+        far_field_chirp(mask, runs, grid, target, exec);
 }
 
 }  // namespace obscura

@@ -7,6 +7,7 @@
 #include "filters/fft.h"
 #include "optics/field.h"
 #include "optics/natural_grid.h"
+#include "optics/row_runs.h"
 #include "optics/spectrum_columns.h"
 
 namespace obscura {
@@ -30,10 +31,16 @@ struct NaturalTransform {
 
 NaturalTransform natural_transform(int width, int height, const NaturalGrid& grid);
 
-/// Far field of a mask of the transform's size; see optics/far_field_methods.h.
-void far_field_runs(ImageView<const float> mask, const NaturalTransform& transform, const FieldTarget& target,
-                    const Exec& exec);
+/// Far field of a mask of the transform's size, over the transform's grid; see optics/far_field_methods.h.
+/// `runs` are row_runs() of the mask.
+void far_field_runs(ImageView<const float> mask, const RowRuns& runs, const NaturalTransform& transform,
+                    const FieldTarget& target, const Exec& exec);
 void far_field_raster_fft(ImageView<const float> mask, const NaturalTransform& transform,
                           const FieldTarget& target, const Exec& exec);
+
+/// far_field_into() with tables made before, for `grid` and the mask's size: what to call for many masks.
+void far_field_into(const Aperture& aperture, const FrequencyGrid& grid, const FarFieldParams& params,
+                    const NaturalTransform& tables, const FieldTarget& target, const Exec& exec,
+                    FarFieldReport* report = nullptr);
 
 }  // namespace obscura

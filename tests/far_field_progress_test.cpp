@@ -2,6 +2,7 @@
 // where it says so.
 
 #include "optics/far_field_progress.h"
+#include "optics/aperture_shapes.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +64,7 @@ TEST(FarFieldProgress, SaysWhatItDidAndWhy) {
     Image<float> mask = occluded(128, -20);
     ProgressReport report = update_far_field(progress, mask.view(), Exec{});
     EXPECT_TRUE(report.refreshed);
-    EXPECT_EQ(report.reason, "computed anew: the first of its size");
+    EXPECT_EQ(report.reason, "computed anew: the first of its size and grid");
 
     const Field before = progress.field;
     report = update_far_field(progress, mask.view(), Exec{});
@@ -113,6 +114,20 @@ TEST(FarFieldProgress, SameBitsEverywhere) {
         EXPECT_EQ(first.re, other.re) << isa_name(isa);
         EXPECT_EQ(first.im, other.im) << isa_name(isa);
     }
+}
+
+TEST(FarFieldProgress, AnotherGridStartsAnew) {
+    ApertureShape shape;
+    const Aperture iris = make_aperture(shape, 64, 1.0);
+    FarFieldProgress progress;
+    for (const double step : {1.0 / 64, 1.0 / 256}) {
+        progress.grid = centred_grid(32, 32, step);
+        EXPECT_TRUE(update_far_field(progress, iris.mask.view(), {}).refreshed);
+        FarFieldParams params;
+        params.symmetry = false;
+        EXPECT_EQ(progress.field.re, far_field(iris, progress.grid, params, {}).re);
+    }
+    EXPECT_FALSE(update_far_field(progress, iris.mask.view(), {}).refreshed);
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ TEST(FarField, WideGreyMasksKeepTheirArea) {
         const auto natural = natural_grid(mask.width, mask.height, grid);
         ASSERT_TRUE(natural);
         Field field{Image<float>(grid.width, grid.height), Image<float>(grid.width, grid.height)};
-        far_field_runs(mask.view(), natural_transform(mask.width, mask.height, *natural),
+        far_field_runs(mask.view(), row_runs(mask.view(), best_isa()),
+                       natural_transform(mask.width, mask.height, *natural),
                        {field.re.pixels.data(), field.im.pixels.data(), nullptr, grid.width}, {});
         const auto truth = exact(mask.view(), grid);
         EXPECT_LE(amplitude_error(field, truth, open_area(mask.view())), tolerance) << mirrored;
@@ -150,6 +151,21 @@ TEST(FarField, ThePlannerKnowsRunsNoiseAndBoxes) {
         if (m.name == "noise") expect(natural, FarFieldMethod::raster_fft);
         if (m.name == "whirl" || m.name == "noise") expect(zoomed, FarFieldMethod::runs);
         if (m.name == "box" || m.name == "full") expect(zoomed, FarFieldMethod::edges);
+    }
+}
+
+TEST(FarField, TexelsThatAreNoNumbersAreRefused) {
+    for (const float bad : {NAN, INFINITY}) {
+        Aperture aperture = hard_masks(32)[2].aperture;
+        aperture.mask(3, 3) = bad;
+        for (const FarFieldMethod method :
+             {FarFieldMethod::automatic, FarFieldMethod::runs, FarFieldMethod::edges, FarFieldMethod::direct,
+              FarFieldMethod::raster_fft}) {
+            FarFieldParams params;
+            params.method = method;
+            EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 1.0 / 32), params, {}), InputError);
+        }
+        EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.1), {}, {}), InputError);
     }
 }
 
