@@ -186,7 +186,7 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     if (has_glare && frame.complete) options.progress(1);
     if (!options.depth) frame.depth_m = {};
     if (!options.object) frame.object = {};
-    crop_frame(crop, frame);
+    if (scene.optics.enabled) crop_frame(crop, frame);
     frame.stats.total_s = total.seconds();
 }
 

@@ -35,14 +35,12 @@ struct PsfParams {
 /// What far_field_psf() would do.
 struct PsfPlan {
     int wavelengths = 0;
-    double cycles_per_px =
-        0;  ///< width of a pixel at 550 nm, in cycles per aperture diameter: pixel / (lambda N)
+    double cycles_per_px = 0;  ///< of the diameter, at 550 nm: pixel / (lambda f-number)
     /// Highest frequency at the kernel's edge, of the shortest wavelength. A mask says little of its aperture
     /// beyond 0.25 (steps of its edges begin to show as false streaks along its axes) and nothing beyond 0.5;
-    /// the kernel fades out from 0.3 to 0.5 (of blue, 440 nm) instead of showing
-    /// the pattern of texels.
-    /// Where the outline is known, it is exact in closed form (method polygon: no limit), or a mask as fine
-    /// as needed, up to 4096 texels, is made of it, and this is about that one.
+    /// the kernel fades out from 0.3 to 0.5 (of blue, 440 nm) instead of showing the pattern of texels. Where
+    /// the outline is known, it is exact in closed form (method polygon: no limit), or a mask as fine as
+    /// needed, up to 4096 texels, is made of it, and this is about that one.
     double highest_cycles_per_texel = 0;
     FarFieldMethod method = FarFieldMethod::automatic;  ///< what computes the far field
     std::int64_t frequencies = 0;                       ///< at which it is computed
