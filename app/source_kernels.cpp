@@ -5,13 +5,17 @@
 
 #include "app/source_kernels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "app/lens.h"
 #include "app/visible_pupil.h"
+#include "core/error.h"
 #include "core/parallel.h"
 #include "optics/near_field_scaled.h"
 #include "raster/camera_rays.h"
@@ -217,8 +221,7 @@ class HiddenLamps {
             const Aperture part = hidden_aperture(aperture_, visible(sample, near, aperture_.mask.width));
             if (!(open_area(part.mask.view()) > 0)) continue;
             const Psf psf = far_field_psf(part, psf_params(scene_.optics, scene_.render), exec_);
-            const auto kernel = static_cast<std::uint16_t>(to.kernels.size());
-            to.kernels.push_back(unit_kernel(psf.kernel));
+            const std::uint16_t kernel = add_kernel(unit_kernel(psf.kernel), to);
             for (const std::size_t i : members)
                 to.choice(pixels[i].x, pixels[i].y) = kernel;
             to.hidden_sources += static_cast<std::int64_t>(members.size());
@@ -298,8 +301,7 @@ void add_defocus(const Scene& scene, const Frame& frame, double clip, const Aper
     for (const auto& [step, sum] : sums) {
         const double mean = sum.first / static_cast<double>(sum.second);
         if (blur_px(o, scene.render, mean) < 0.5) continue;
-        kernel_of[step] = static_cast<std::uint16_t>(to.kernels.size());
-        to.kernels.push_back(defocus_kernel(aperture, o, scene.render, mean, exec));
+        kernel_of[step] = add_kernel(defocus_kernel(aperture, o, scene.render, mean, exec), to);
     }
     for (int y = 0; y < frame.height; ++y) {
         for (int x = 0; x < frame.width; ++x) {
@@ -313,6 +315,16 @@ void add_defocus(const Scene& scene, const Frame& frame, double clip, const Aper
 }
 
 }  // namespace
+
+std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to) {
+    if (to.kernels.size() >= most_kernels)
+        throw LimitError(
+            fmt::format("lamps that are partly hidden need more than {} patterns; fewer "
+                        "optics.visibility_samples need less",
+                        most_kernels));
+    to.kernels.push_back(std::move(kernel));
+    return static_cast<std::uint16_t>(to.kernels.size() - 1);
+}
 
 bool wants_source_kernels(const OpticsSettings& optics) {
     return optics.enabled && (optics.visibility != PupilVisibility::open || optics.focus_m > 0);

@@ -18,6 +18,12 @@ struct SourceKernels {
     std::int64_t hidden_sources = 0;  ///< pixels that see a lens partly hidden, or are out of focus
 };
 
+/// The most kernels that one frame's sources may choose from.
+constexpr std::size_t most_kernels = 65536;
+
+/// Its index. Throws LimitError when there are most_kernels already.
+std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to);
+
 /// True when the scene asks for such kernels; they need the frame's depth (and object) channels.
 bool wants_source_kernels(const OpticsSettings& optics);
 

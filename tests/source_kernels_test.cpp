@@ -13,6 +13,7 @@
 #include "app/render_frame.h"
 #include "app/scene_build.h"
 #include "app/visible_pupil.h"
+#include "core/error.h"
 
 namespace obscura {
 namespace {
@@ -137,7 +138,8 @@ TEST(VisiblePupil, NoTriangleThatHidesIsLeftOut) {
 
 // --- out of focus
 
-/// A half-open mask, its right half, of a lens of 50 mm at f/2, pixels of 50 um.
+/// A half-open mask, its right half and one texel at the left that keeps it from being centred, of a lens of
+/// 50 mm at f/2, pixels of 50 um.
 struct HalfLens {
     OpticsSettings optics;
     RenderSettings render;
@@ -157,6 +159,7 @@ struct HalfLens {
             for (int x = 32; x < 64; ++x)
                 optics.mask(x, y) = 1;
         }
+        optics.mask(0, 32) = 1;
         aperture = lens_aperture(optics);
     }
 };
@@ -254,6 +257,14 @@ double light_of(const Frame& frame) {
             sum += static_cast<double>(frame.radiance.view()(x, y).y);
     }
     return sum;
+}
+
+TEST(SourceKernels, NoIndexWrapsAround) {
+    SourceKernels all;
+    for (std::size_t i = 0; i < most_kernels; ++i)
+        ASSERT_EQ(add_kernel(Image<Vec3f>(1, 1), all), i);
+    EXPECT_THROW(add_kernel(Image<Vec3f>(1, 1), all), LimitError);
+    EXPECT_EQ(all.kernels.size(), most_kernels);
 }
 
 TEST(SourceKernels, AFreeLampSeesTheWholeLens) {
