@@ -56,7 +56,9 @@ struct ChirpTransform {
 
 ChirpTransform chirp_transform(int rows, const FrequencyGrid& grid) {
     ChirpTransform t;
-    t.plan = fft_plan(chirp_log2_length(rows, grid.height));
+    const int log2_length = chirp_log2_length(rows, grid.height);
+    CHECK(log2_length > 0);
+    t.plan = fft_plan(log2_length);
     const int length = t.plan.length(), most = length - rows + 1;
     const double dv = grid.step_v, middle = 0.5 - rows / 2.0;  // of the first texel
     for (int first = 0; first < grid.height; first += most) {
@@ -157,7 +159,6 @@ int chirp_log2_length(int mask_height, int grid_height) {
             least = cost;
         }
     }
-    CHECK(best > 0 || (mask_height == 1 && grid_height == 1));
     return best;
 }
 

@@ -14,7 +14,8 @@ namespace obscura {
 void far_field_chirp(ImageView<const float> mask, const RowRuns& runs, const FrequencyGrid& grid,
                      const FieldTarget& target, const Exec& exec);
 
-/// log2 of the transforms it would use: the cheapest cut of the grid's rows into tiles.
+/// log2 of the transforms it would use: the cheapest cut of the grid's rows into tiles. 0 when there is none:
+/// masks of more than 65536 rows.
 int chirp_log2_length(int mask_height, int grid_height);
 
 /// Of a natural grid, whether the transforms over its whole period cost less than those of the window: true

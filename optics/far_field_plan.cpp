@@ -101,6 +101,7 @@ double raster_fft_ns(const MaskFacts& m, const NaturalGrid& grid) {
 double chirp_ns(const MaskFacts& m, const FrequencyGrid& grid) {
     const double groups = std::ceil(grid.width / 16.0);
     const int log2 = chirp_log2_length(m.height, grid.height);
+    if (log2 == 0) return never;
     const double length = 1 << log2;
     const double tiles = std::ceil(grid.height / (length - m.height + 1));
     const double sums = std::min(per_transform * m.runs, per_transform * m.width + 2 * per_run_end * m.runs);
@@ -133,7 +134,8 @@ std::string reason_of(const Choice& best, const Choice& other, const MaskFacts& 
 }
 
 /// Throws when a method that was asked for cannot serve.
-void check_method(const Aperture& aperture, bool natural, const FarFieldParams& params) {
+void check_method(const Aperture& aperture, const FrequencyGrid& grid, bool natural,
+                  const FarFieldParams& params) {
     const FarFieldMethod method = params.method;
     const auto refuse = [&](const char* why) {
         throw InputError("far field",
@@ -141,6 +143,13 @@ void check_method(const Aperture& aperture, bool natural, const FarFieldParams& 
     };
     if (!natural && (method == FarFieldMethod::levels || method == FarFieldMethod::raster_fft))
         refuse("the grid's step is not 1 / a power of two that is at least the mask's side");
+    if (!natural && method == FarFieldMethod::runs &&
+        chirp_log2_length(aperture.mask.height, grid.height) == 0) {
+        throw LimitError(
+            fmt::format("far field: method runs serves masks of at most 65536 rows, not {}; the "
+                        "method edges serves any",
+                        aperture.mask.height));
+    }
     if (method == FarFieldMethod::polygon && !aperture.outline.disjoint)
         refuse("no outline of disjoint loops is known of this aperture");
     if (params.cull < 0 || !std::isfinite(params.cull))
@@ -155,7 +164,7 @@ FarFieldReport plan_far_field(const Aperture& aperture, const RowRuns& runs, con
                               const FarFieldParams& params) {
     const auto mask = aperture.mask.view();
     const auto natural = natural_grid(mask.width, mask.height, grid);
-    check_method(aperture, natural.has_value(), params);
+    check_method(aperture, grid, natural.has_value(), params);
     FarFieldReport report;
     report.method = params.method;
     if (params.method != FarFieldMethod::automatic) {

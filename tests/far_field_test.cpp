@@ -187,6 +187,26 @@ TEST(FarField, MethodsThatCannotServeAreRefused) {
     EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.01), params, {}), InputError);
 }
 
+TEST(FarField, MasksTooHighForTransformsAreServedByEdges) {
+    // A column of open texels, as high as anything: sinc, over its height, of frequencies around 0.
+    const int height = 65537;
+    Aperture aperture;
+    aperture.mask = Image<float>(1, height);
+    std::fill(aperture.mask.pixels.begin(), aperture.mask.pixels.end(), 1.0f);
+    const FrequencyGrid grid = centred_grid(1, 5, 0.3 / height);
+    FarFieldReport report;
+    const Field field = far_field(aperture, grid, {}, {}, &report);
+    EXPECT_EQ(report.method, FarFieldMethod::edges) << report.reason;
+    for (int y = 0; y < 5; ++y) {
+        const double turns = 0.3 * (y - 2), angle = 3.14159265358979323846 * turns;
+        const double expected = turns == 0 ? height : height * std::sin(angle) / angle;
+        EXPECT_NEAR(static_cast<double>(field.re(0, y)), expected, 2e-6 * height) << y;
+    }
+    FarFieldParams runs;
+    runs.method = FarFieldMethod::runs;
+    EXPECT_THROW(far_field(aperture, grid, runs, {}), LimitError);
+}
+
 TEST(FarField, BitsDoNotDependOnThreadsOrInstructionSet) {
     for (const NamedMask& m : hard_masks(64)) {
         auto grids = natural_grids(64);
