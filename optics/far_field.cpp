@@ -15,11 +15,6 @@
 namespace obscura {
 namespace {
 
-void check_grid(const FrequencyGrid& grid) {
-    CHECK(grid.width > 0 && grid.height > 0 && grid.step_u > 0 && grid.step_v > 0);
-    CHECK(std::isfinite(grid.first_u) && std::isfinite(grid.first_v));
-}
-
 /// Throws when a texel is no number: it would spread over the whole pattern.
 void check_texels(ImageView<const float> mask, const RowRuns& runs, bool searched) {
     // A texel that is no number is a run of its own.

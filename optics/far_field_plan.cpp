@@ -160,8 +160,26 @@ void check_method(const Aperture& aperture, const FrequencyGrid& grid, bool natu
 
 }  // namespace
 
+void check_grid(const FrequencyGrid& grid) {
+    if (grid.width < 1 || grid.height < 1) {
+        throw InputError("far field",
+                         fmt::format("a grid of {} x {} frequencies is empty", grid.width, grid.height));
+    }
+    const auto check_axis = [](const char* axis, double first, double step, int count) {
+        if (step > 0 && std::isfinite(first) && std::isfinite(step) && std::isfinite(first + step * count))
+            return;
+        throw InputError("far field",
+                         fmt::format("frequencies along {} must be finite and their step positive, not from "
+                                     "{} in steps of {} cycles per texel",
+                                     axis, first, step));
+    };
+    check_axis("u", grid.first_u, grid.step_u, grid.width);
+    check_axis("v", grid.first_v, grid.step_v, grid.height);
+}
+
 FarFieldReport plan_far_field(const Aperture& aperture, const RowRuns& runs, const FrequencyGrid& grid,
                               const FarFieldParams& params) {
+    check_grid(grid);
     const auto mask = aperture.mask.view();
     const auto natural = natural_grid(mask.width, mask.height, grid);
     check_method(aperture, grid, natural.has_value(), params);
@@ -187,6 +205,7 @@ FarFieldReport plan_far_field(const Aperture& aperture, const RowRuns& runs, con
     report.method = choices[0].method;
     report.cost_ms = choices[0].ns * 1e-6;
     report.reason = reason_of(choices[0], choices[1], m, natural.has_value());
+    if (params.cull > 0) report.reason += "; only edges can cull";
     return report;
 }
 

@@ -10,4 +10,7 @@ namespace obscura {
 FarFieldReport plan_far_field(const Aperture& aperture, const RowRuns& runs, const FrequencyGrid& grid,
                               const FarFieldParams& params);
 
+/// Throws InputError unless the grid has pixels and its steps are positive, its frequencies finite.
+void check_grid(const FrequencyGrid& grid);
+
 }  // namespace obscura

@@ -32,10 +32,16 @@ double turns_of(const Aperture& aperture, const NearFieldParams& params) {
 }
 
 void check_plane(const PlaneGrid& grid) {
-    CHECK(grid.width > 0 && grid.height > 0);
-    if (!(grid.step > 0) || !std::isfinite(grid.step) || !std::isfinite(grid.first_x) ||
-        !std::isfinite(grid.first_y))
-        throw InputError("", "positions and step of a plane must be finite, and the step positive");
+    if (grid.width < 1 || grid.height < 1)
+        throw InputError("near field",
+                         fmt::format("a plane of {} x {} pixels is empty", grid.width, grid.height));
+    const double extent = grid.step * std::max(grid.width, grid.height);
+    if (grid.step > 0 && std::isfinite(grid.first_x + extent) && std::isfinite(grid.first_y + extent)) return;
+    throw InputError(
+        "near field",
+        fmt::format("positions of a plane must be finite and their step positive, not from {}, {} "
+                    "in steps of {} texels",
+                    grid.first_x, grid.first_y, grid.step));
 }
 
 bool is_binary(const Image<float>& mask) {
@@ -124,7 +130,7 @@ void compute(const Aperture& aperture, const PlaneGrid& grid, const NearFieldPar
              const FieldTarget& target, const Exec& exec, NearFieldReport* report) {
     Aperture coarse;
     const NearFieldCase c = near_field_case(aperture, grid, params, coarse);
-    NearFieldReport plan = plan_near_field_case(c, params.method);
+    NearFieldReport plan = plan_near_field_case(c, params);
     switch (plan.method) {
         case NearFieldMethod::direct:
         case NearFieldMethod::two_pass: {
@@ -156,7 +162,7 @@ void compute(const Aperture& aperture, const PlaneGrid& grid, const NearFieldPar
 NearFieldReport plan_near_field(const Aperture& aperture, const PlaneGrid& grid,
                                 const NearFieldParams& params) {
     Aperture coarse;
-    return plan_near_field_case(near_field_case(aperture, grid, params, coarse), params.method);
+    return plan_near_field_case(near_field_case(aperture, grid, params, coarse), params);
 }
 
 Field near_field(const Aperture& aperture, const PlaneGrid& grid, const NearFieldParams& params,

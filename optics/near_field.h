@@ -41,9 +41,9 @@ struct NearFieldParams {
     double wavelength_m = 550e-9;
     double distance_m = 0;  ///< z > 0
     NearFieldMethod method = NearFieldMethod::automatic;
-    /// Edges only: blocks of 8 x 8 pixels become 0 where the power at their centre and at their eight
-    /// neighbours' centres is below this share of the unobstructed wave's (the thesis samples values alone,
-    /// too: there is no simple gradient). The other methods compute every pixel.
+    /// Above 0, `automatic` chooses edges and the other methods are refused: blocks of 8 x 8 pixels become 0
+    /// where the power at their centre and at their eight neighbours' centres is below this share of the
+    /// unobstructed wave's (the thesis samples values alone, too: there is no simple gradient).
     double cull = 0;
     /// 2^coarse_levels texels in a row become one first: the finest level of a coarser quadtree. Binary masks
     /// stay binary. What then remains exact is the field of the coarser mask; its edges are off by up to half
@@ -68,7 +68,8 @@ NearFieldReport plan_near_field(const Aperture& aperture, const PlaneGrid& grid,
 
 /// U over the plane. Error below 2e-6 of the unobstructed wave's amplitude and of the pattern's own peak,
 /// whichever is less, at any Fresnel number up to 1000. Throws InputError for lengths that are not positive
-/// and finite, and when the method named cannot serve the plane (hybrid, fft: step = p / q with q up to 16).
+/// and finite, for planes without pixels, and when the method named cannot serve the plane (hybrid, fft: step
+/// = p / q with q up to 16).
 Field near_field(const Aperture& aperture, const PlaneGrid& grid, const NearFieldParams& params,
                  const Exec& exec, NearFieldReport* report = nullptr);
 

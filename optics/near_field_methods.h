@@ -28,8 +28,9 @@ struct NearFieldCase {
 NearFieldCase near_field_case(const Aperture& aperture, const PlaneGrid& grid, const NearFieldParams& params,
                               Aperture& coarse);
 
-/// The planner's choice; `method` unless that is automatic. Throws InputError when it cannot serve the plane.
-NearFieldReport plan_near_field_case(const NearFieldCase& c, NearFieldMethod method);
+/// The planner's choice, or the method that `params` names. Throws InputError when that cannot serve the
+/// plane or cannot cull.
+NearFieldReport plan_near_field_case(const NearFieldCase& c, const NearFieldParams& params);
 
 /// What of the plane must be computed, from its upper left corner on: half an axis along which mask and plane
 /// both are their own mirror images, the whole of any other.

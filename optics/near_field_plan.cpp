@@ -156,7 +156,14 @@ struct Choice {
 
 }  // namespace
 
-NearFieldReport plan_near_field_case(const NearFieldCase& c, NearFieldMethod method) {
+NearFieldReport plan_near_field_case(const NearFieldCase& c, const NearFieldParams& params) {
+    const NearFieldMethod method = params.method;
+    if (!(params.cull >= 0) || !std::isfinite(params.cull))
+        throw InputError("near field", "cull must be 0 or more");
+    if (params.cull > 0 && method != NearFieldMethod::automatic && method != NearFieldMethod::edges) {
+        throw InputError("near field", fmt::format("method {} cannot serve: only the method edges can cull",
+                                                   near_field_method_name(method)));
+    }
     const bool convolves = method == NearFieldMethod::hybrid || method == NearFieldMethod::fft;
     const bool along_y = ColumnConvolution::transform_length(c.vertical()) > 0;
     const bool along_x = ColumnConvolution::transform_length(c.horizontal()) > 0;
@@ -177,6 +184,12 @@ NearFieldReport plan_near_field_case(const NearFieldCase& c, NearFieldMethod met
                                   Choice{NearFieldMethod::fft, fft_cost_ns(c) * 1e-6}};
     std::stable_sort(choices.begin(), choices.end(),
                      [](const Choice& a, const Choice& b) { return a.ms < b.ms; });
+    if (params.cull > 0) {
+        const auto edges = std::find_if(choices.begin(), choices.end(), [](const Choice& choice) {
+            return choice.method == NearFieldMethod::edges;
+        });
+        std::rotate(choices.begin(), edges, edges + 1);
+    }
     report.method = choices[0].method;
     report.cost_ms = choices[0].ms;
     report.edges = counts.terms();
@@ -187,6 +200,7 @@ NearFieldReport plan_near_field_case(const NearFieldCase& c, NearFieldMethod met
         std::isfinite(choices[1].ms)
             ? fmt::format("next {} with {:.3g} ms", near_field_method_name(choices[1].method), choices[1].ms)
             : std::string("the plane's step allows no convolution");
+    if (params.cull > 0) report.reason += "; only edges can cull";
     return report;
 }
 

@@ -187,6 +187,20 @@ TEST(FarField, MethodsThatCannotServeAreRefused) {
     EXPECT_THROW(far_field(aperture, centred_grid(8, 8, 0.01), params, {}), InputError);
 }
 
+TEST(FarField, GridsThatMeanNothingAreRefused) {
+    const Aperture aperture = hard_masks(32)[2].aperture;
+    for (const FrequencyGrid& grid :
+         {FrequencyGrid{0, 8, 0, 0, 0.1, 0.1}, FrequencyGrid{8, -1, 0, 0, 0.1, 0.1},
+          FrequencyGrid{8, 8, 0, 0, 0, 0.1}, FrequencyGrid{8, 8, 0, 0, 0.1, NAN},
+          FrequencyGrid{8, 8, 0, 0, INFINITY, 0.1}, FrequencyGrid{8, 8, 0, 0, -0.1, 0.1},
+          FrequencyGrid{8, 8, NAN, 0, 0.1, 0.1}, FrequencyGrid{8, 8, 0, -INFINITY, 0.1, 0.1}}) {
+        EXPECT_THROW(far_field(aperture, grid, {}, {}), InputError);
+        EXPECT_THROW(far_field_power(aperture, grid, {}, {}), InputError);
+        EXPECT_THROW(plan_far_field(aperture, grid, {}), InputError);
+        EXPECT_THROW(far_field_into(aperture, grid, {}, {}, {}), InputError);
+    }
+}
+
 TEST(FarField, MasksTooHighForTransformsAreServedByEdges) {
     // A column of open texels, as high as anything: sinc, over its height, of frequencies around 0.
     const int height = 65537;

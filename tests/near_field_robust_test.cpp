@@ -173,6 +173,25 @@ TEST(NearField, CulledBlocksAreDarkAndOthersUntouched) {
     EXPECT_LT(active, 400);
 }
 
+TEST(NearFieldPlan, CullingMeansEdges) {
+    const Aperture a = blades(256, 256);
+    const PlaneGrid grid = centred_plane(512, 512);
+    NearFieldParams params = at_fresnel_number(a, 10);
+    ASSERT_EQ(plan_near_field(a, grid, params).method, NearFieldMethod::hybrid);
+    params.cull = 0.01;
+    NearFieldReport report;
+    near_field_intensity(a, grid, params, {}, &report);
+    EXPECT_EQ(report.method, NearFieldMethod::edges);
+    EXPECT_NE(report.reason.find("only edges can cull"), std::string::npos) << report.reason;
+    EXPECT_EQ(report.blocks, 64 * 64);
+    EXPECT_LT(report.active_blocks, report.blocks);
+    params.method = NearFieldMethod::hybrid;
+    EXPECT_THROW(plan_near_field(a, grid, params), InputError);
+    params.method = NearFieldMethod::automatic;
+    params.cull = -1;
+    EXPECT_THROW(plan_near_field(a, grid, params), InputError);
+}
+
 TEST(NearFieldPlan, FollowsTheMask) {
     const auto chosen = [](const Aperture& a, const PlaneGrid& grid) {
         const NearFieldReport plan = plan_near_field(a, grid, at_fresnel_number(a, 10));
@@ -214,9 +233,14 @@ TEST(NearField, RefusesWhatMeansNothing) {
         p.wavelength_m = wavelength;
         EXPECT_THROW(near_field(a, grid, p, {}), InputError);
     }
-    for (const PlaneGrid& plane : {PlaneGrid{4, 4, 0, 0, 0}, PlaneGrid{4, 4, nan, 0, 1},
-                                   PlaneGrid{4, 4, 0, 0, -1}, PlaneGrid{4, 4, 0, inf, 1}})
+    for (const PlaneGrid& plane :
+         {PlaneGrid{4, 4, 0, 0, 0}, PlaneGrid{4, 4, nan, 0, 1}, PlaneGrid{4, 4, 0, 0, -1},
+          PlaneGrid{4, 4, 0, inf, 1}, PlaneGrid{4, 4, 0, 0, inf}, PlaneGrid{0, 4, 0, 0, 1},
+          PlaneGrid{4, -1, 0, 0, 1}}) {
         EXPECT_THROW(near_field(a, plane, params, {}), InputError);
+        EXPECT_THROW(near_field_intensity(a, plane, params, {}), InputError);
+        EXPECT_THROW(plan_near_field(a, plane, params), InputError);
+    }
     for (const NearFieldMethod method : {NearFieldMethod::hybrid, NearFieldMethod::fft}) {
         NearFieldParams p = params;
         p.method = method;
