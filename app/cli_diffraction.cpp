@@ -46,6 +46,16 @@ T named_value(const std::string& flag, const std::string& text, const std::array
         fmt::format("{}: '{}' is not one of {}{}", flag, text, fmt::join(names, ", "), hint(text, names)));
 }
 
+/// A number in [low, high] or near it: what lies outside is left to a judge who has more to say. No number at
+/// all is told that range.
+double number_to_judge(const std::string& flag, const std::string& text, double low, double high) {
+    try {
+        return real_number(flag, text, -1e300, 1e300);
+    } catch (const UsageError&) {
+        return real_number(flag, text, low, high);
+    }
+}
+
 /// Numbers of a flag that people give in other units than it says.
 double wavelength_value(double nm) {
     if (nm >= 10 && nm <= 1e6) return nm;
@@ -237,7 +247,7 @@ void set_light(const Texts& t, DiffractionOptions& options) {
     if (!t.wavelength.empty() && !t.spectrum.empty())
         throw UsageError("give either --wavelength-nm or --spectrum, not both");
     if (!t.wavelength.empty()) {
-        options.wavelength_nm = wavelength_value(real_number("--wavelength-nm", t.wavelength, -1e12, 1e12));
+        options.wavelength_nm = wavelength_value(number_to_judge("--wavelength-nm", t.wavelength, 10, 1e6));
     }
     if (!t.spectrum.empty()) options.spectrum = spectrum_value("--spectrum", t.spectrum);
     if (t.wavelengths > 0 && t.spectrum.empty()) throw UsageError("--wavelengths needs --spectrum");
@@ -247,11 +257,12 @@ void set_light(const Texts& t, DiffractionOptions& options) {
 void set_field(const Texts& t, DiffractionOptions& options) {
     if (!t.near.empty()) {
         if (t.far) throw UsageError("give either --far or --near, not both");
-        const double z_mm = real_number("--near", t.near, -1e15, 1e15);
+        constexpr double nearest_mm = 1e-9, farthest_mm = 1e15;
+        const double z_mm = number_to_judge("--near", t.near, nearest_mm, farthest_mm);
         if (!(z_mm > 0))
             throw UsageError(
                 fmt::format("--near: {} mm is not in front of the aperture; give a distance above 0", z_mm));
-        options.near_m = 1e-3 * z_mm;
+        options.near_m = 1e-3 * real_number("--near", t.near, nearest_mm, farthest_mm);
         options.near_method = named_value("--method", t.method, near_methods, near_field_method_name);
     } else {
         options.far.method = named_value("--method", t.method, far_methods, far_field_method_name);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/aperture_file.h"
+#include "app/diffraction_grid.h"
 #include "app/json_writer.h"
 #include "app/stopwatch.h"
 #include "core/error.h"
@@ -26,6 +27,7 @@ namespace {
 constexpr double reference_nm = 550;
 constexpr double default_diameter_m = 0.005;
 constexpr int near_wavelengths = 40;
+constexpr double far_fresnel_number = 0.1;
 constexpr std::int64_t bytes_per_texel = 4 * 6;
 
 /// What is computed, over which grid, and how.
@@ -61,6 +63,7 @@ void check_limits(const DiffractionOptions& options, std::int64_t texels) {
 Aperture mask_from_file(const DiffractionOptions& options) {
     ImageFileLimits limits;
     limits.max_bytes = (options.memory_mib << 20) / bytes_per_texel * std::int64_t{sizeof(Rgba8)};
+    limits.advice = " (--limit-memory raises it)";
     Image<float> mask = read_mask(options.mask_file, options.aperture, limits);
     check_limits(options, std::int64_t{mask.width} * mask.height);
     ApertureScale scale{options.pitch_m, options.diameter_m};
@@ -90,37 +93,6 @@ Aperture load_aperture(const DiffractionOptions& options) {
     return aperture;
 }
 
-double longer_side(const Aperture& aperture) {
-    return std::max(aperture.mask.width, aperture.mask.height);
-}
-
-/// Streaks are in sight and rings can be counted: the opening's width times the highest frequency is from 56
-/// to 112. A power of two keeps natural grids natural.
-double far_zoom(const DiffractionOptions& options, const Aperture& aperture) {
-    if (options.zoom > 0) return options.zoom;
-    constexpr int most_fringes = 112;
-    const OpenExtent open = open_extent(aperture.mask.view());
-    double zoom = 1;
-    while (zoom * most_fringes < std::max(open.width, open.height) / 2.0)
-        zoom *= 2;
-    return zoom;
-}
-
-FrequencyGrid far_grid(const DiffractionOptions& options, const Aperture& aperture) {
-    const double step = 1 / (far_zoom(options, aperture) * options.size_px);
-    const double side = longer_side(aperture);
-    return centred_grid(options.size_px, options.size_px, step, options.centre.x / side,
-                        options.centre.y / side);
-}
-
-PlaneGrid near_grid(const DiffractionOptions& options, const Aperture& aperture) {
-    const double side = longer_side(aperture);
-    PlaneGrid plane = centred_plane(options.size_px, side / (options.zoom > 0 ? options.zoom : 1));
-    plane.first_x += options.centre.x * side;
-    plane.first_y += options.centre.y * side;
-    return plane;
-}
-
 /// What the cheapest method takes, beside a choice that may take a thousand times as long.
 void compare_with_cheapest(Job& job, const DiffractionOptions& options) {
     const auto note = [](std::string& reason, const char* cheapest, double ms) {
@@ -143,6 +115,7 @@ Job plan_job(const DiffractionOptions& options) {
     Job job;
     job.aperture = load_aperture(options);
     job.open = open_area(job.aperture.mask.view());
+    check_served(options, job.aperture);
     if (options.near_m) {
         job.plane = near_grid(options, job.aperture);
         job.near.wavelength_m = 1e-9 * (options.spectrum ? reference_nm : options.wavelength_nm);
@@ -326,6 +299,8 @@ int diffraction_command(const DiffractionOptions& options) {
     Job job = plan_job(options);
     fmt::print("{}{}", aperture_text(options, job), pattern_text(options, job));
     std::fflush(stdout);
+    if (options.near_m && fresnel_number(job.aperture, job.near) < far_fresnel_number)
+        fmt::print(stderr, "obscura: note: so far away the pattern is all but the far field's; see --far\n");
     if (options.plan_only) return 0;
     const Stopwatch watch;
     const Pattern pattern = options.near_m ? near_pattern(options, job) : far_pattern(options, job);

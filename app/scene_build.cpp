@@ -215,7 +215,9 @@ Image<float> lens_mask(const Builder& b) {
     const SceneTable& optics = subtable(b.document.root, "optics");
     if (text(optics, "aperture") != "file") return {};
     return load_named(b, optics, "file", [&](const std::filesystem::path& path) {
-        return read_mask(path, text(optics, "file"), {b.limits.texture_px, b.limits.texture_mib << 20});
+        return read_mask(
+            path, text(optics, "file"),
+            {b.limits.texture_px, b.limits.texture_mib << 20, " (limits.texture_mib raises it)"});
     });
 }
 

@@ -17,6 +17,7 @@ namespace obscura {
 struct ImageFileLimits {
     std::int64_t max_side_px = 16384;
     std::int64_t max_bytes = std::int64_t{1} << 30;  ///< decoded, and of each buffer on the way
+    std::string_view advice = {};  ///< follows that number in messages, like " (--limit raises it)"
 };
 
 /// PNG of any colour type, depth and interlacing as 8-bit RGBA (16-bit samples keep their upper byte).

@@ -100,8 +100,8 @@ FloatImage decode_pfm(std::string_view bytes, const std::string& name, const Ima
     }
     const std::int64_t expected = width * height * (colour ? 12 : 4);
     if (expected > limits.max_bytes) {
-        throw LimitError(fmt::format("{}: PFM claims {} x {} pixels, {} bytes, the limit is {}", name, width,
-                                     height, expected, limits.max_bytes));
+        throw LimitError(fmt::format("{}: PFM claims {} x {} pixels, {} bytes, the limit is {}{}", name,
+                                     width, height, expected, limits.max_bytes, limits.advice));
     }
     const std::string_view data = bytes.substr(header.position);
     if (static_cast<std::int64_t>(data.size()) != expected) {

@@ -125,8 +125,9 @@ void check_limits(const PngHeader& h, const std::string& name, const ImageFileLi
     const std::int64_t decoded = std::int64_t{4} * h.width * h.height;
     const std::int64_t most = std::min<std::int64_t>(limits.max_bytes, std::numeric_limits<int>::max());
     if (std::max(decoded, png_raw_size(h)) > most) {
-        throw LimitError(fmt::format("{}: PNG claims {} x {} pixels, {} bytes decoded, the limit is {}", name,
-                                     h.width, h.height, std::max(decoded, png_raw_size(h)), most));
+        throw LimitError(fmt::format("{}: PNG claims {} x {} pixels, {} bytes decoded, the limit is {}{}",
+                                     name, h.width, h.height, std::max(decoded, png_raw_size(h)), most,
+                                     limits.advice));
     }
 }
 

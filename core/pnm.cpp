@@ -94,8 +94,8 @@ Header read_header(TextReader& text, const ImageFileLimits& limits) {
     }
     const std::int64_t decoded = width * height * std::int64_t{sizeof(std::uint16_t)};
     if (decoded > limits.max_bytes) {
-        throw LimitError(fmt::format("{}: claims {} x {} pixels, {} bytes, the limit is {}", text.name, width,
-                                     height, decoded, limits.max_bytes));
+        throw LimitError(fmt::format("{}: claims {} x {} pixels, {} bytes, the limit is {}{}", text.name,
+                                     width, height, decoded, limits.max_bytes, limits.advice));
     }
     header.width = static_cast<int>(width);
     header.height = static_cast<int>(height);

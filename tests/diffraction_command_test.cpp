@@ -74,6 +74,7 @@ TEST(DiffractionCommand, MasksFromFiles) {
     const Outcome large =
         run_in(folder, {"diffraction", "large.pgm", "--limit-memory", "100", "-o", "l.png"});
     EXPECT_EQ(large.code, 4) << large.err;
+    EXPECT_NE(large.err.find("--limit-memory"), std::string::npos) << large.err;
 }
 
 TEST(DiffractionCommand, DirtScattersLightAside) {
@@ -205,6 +206,29 @@ TEST(DiffractionCommand, AMethodAskedForStandsBesideTheCheapest) {
     EXPECT_NE(near.out.find("the cheapest, "), std::string::npos) << near.out;
 }
 
+TEST(DiffractionCommand, NearFieldsFarAwayHintAtTheFarField) {
+    const Folder folder;
+    const auto notes = [&](const char* mm) {
+        return run_in(folder, {"diffraction", "iris", "--plan", "--near", mm}).err;
+    };
+    EXPECT_EQ(notes("1000"), "");
+    EXPECT_NE(notes("1e6").find("note: so far away the pattern is all but the far field's; see --far"),
+              std::string::npos);
+}
+
+TEST(DiffractionCommand, MethodsOfSomeGridsServeThoseTheyAskFor) {
+    const Folder folder;
+    for (const std::vector<std::string>& flags :
+         {std::vector<std::string>{"--method", "levels", "--zoom", "2"},
+          std::vector<std::string>{"--method", "fft", "--near", "5", "--zoom", "4"},
+          std::vector<std::string>{"--method", "hybrid", "--near", "5", "--zoom", "0.5"}}) {
+        std::vector<std::string> line{"diffraction", "iris", "--plan"};
+        line.insert(line.end(), flags.begin(), flags.end());
+        const Outcome run = run_in(folder, line);
+        EXPECT_EQ(run.code, 0) << run.err;
+    }
+}
+
 TEST(DiffractionCommand, SegmentsAndVanesAreCounted) {
     const Folder folder;
     const auto open_share = [&](std::vector<std::string> flags) {
@@ -272,7 +296,14 @@ TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
         {{"iris", "--near", "5", "--method", "polygon"},
          2,
          "--method: 'polygon' is not one of automatic, direct, two_pass"},
-        {{"iris", "--method", "raster_fft", "--size", "1000"}, 3, "raster_fft"},
+        {{"iris", "--method", "raster_fft", "--size", "1000"}, 3, "--method raster_fft: cannot serve"},
+        {{"iris", "--method", "levels", "--zoom", "3"},
+         3,
+         "--size x --zoom = 3072: that must be a power of two, at least the mask's side, 1024"},
+        {{"iris", "--method", "levels", "--zoom", "3"}, 3, "; --zoom 2 would do"},
+        {{"iris", "--near", "5", "--method", "fft", "--zoom", "3.7"}, 3, "; --zoom 4 would do"},
+        {{"iris", "--near", "nan"}, 2, "--near: 'nan' is not a number from 1e-09 to 1000000000000000"},
+        {{"iris", "--wavelength-nm", "nan"}, 2, "--wavelength-nm: 'nan' is not a number from 10 to 1000000"},
         {{"irsi"}, 2, "did you mean 'iris'?"},
         {{"iris", "--spectrum", "d56"}, 2, "did you mean 'd65'?"},
         {{"iris", "--spectrum", "blackbody:3"}, 2, "--spectrum: '3' is not a number from 500"},
