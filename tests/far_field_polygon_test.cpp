@@ -66,7 +66,7 @@ struct NamedOutline {
 };
 std::vector<NamedOutline> outlines(int size) {
     std::vector<NamedOutline> all;
-    ApertureShape iris, box, annulus, hexagons, slits;
+    ApertureShape iris, box, hexagons, slits;
     box.kind = ApertureKind::box;
     box.aspect = 0.3;
     box.rotation_deg = 30;
