@@ -227,6 +227,7 @@ void convolve_tiles(std::span<const ChannelConvolution> channels, const Convolut
     const int lists = many ? threads : 1;
     const Exec inside{exec.isa, many ? 1 : threads};
     std::vector<Tile> tiles;
+    tiles.reserve(static_cast<std::size_t>(lists));
     for (int list = 0; list < lists; ++list)
         tiles.emplace_back(width, height);
     const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

@@ -44,7 +44,8 @@ double fft_ns(const Axis& x, const Axis& y) {
     const double pixels = static_cast<double>(std::int64_t{1} << (x.bits + y.bits));
     const double transform = fft_pixel_ns(x.bits) + fft_pixel_ns(y.bits);
     const double touch = pixels > kept_pixels ? touch_pixel_ns : 0;
-    const double pairs = static_cast<double>((std::int64_t{x.tiles} * y.tiles + 1) / 2);
+    const std::int64_t pair_count = (std::int64_t{x.tiles} * y.tiles + 1) / 2;
+    const auto pairs = static_cast<double>(pair_count);
     return pixels * (touch + transform + carry_pixel_ns / 2 + pairs * (2 * transform + carry_pixel_ns));
 }
 

@@ -29,7 +29,7 @@ Envelope envelope_of(int side, double origin, int extent, const FrequencyRamp& r
     const double shift = origin - extent * 0.5;
     cell.add(shift - side * 0.5, shift + side * 0.5, 1.0f);
     cell.close_term();
-    const auto padded = static_cast<std::size_t>((ramp.count + 15) / 16 * 16);
+    const std::size_t padded = (static_cast<std::size_t>(ramp.count) + 15) / 16 * 16;
     Envelope envelope{std::vector<float>(padded), std::vector<float>(padded)};
     for (int at = 0; at < ramp.count; at += 16)
         OBSCURA_DISPATCH(exec.isa, box_panel, ramp, at, cell.view(), envelope.re.data() + at,
@@ -81,7 +81,8 @@ double far_field_levels_cost_ns(const QuadList& quads, const FrequencyGrid& grid
     for (const LevelCells& level : level_cells(quads)) {
         const int rows = natural->v.period() / level.side, columns = natural->u.period() / level.side / 2 + 1;
         const double step_u = 1.0 / natural->u.period(), step_v = 1.0 / natural->v.period();
-        const FrequencyGrid half{columns, rows, 0, -(rows / 2) * step_v, step_u, step_v};
+        const int middle = rows / 2;
+        const FrequencyGrid half{columns, rows, 0, -middle * step_v, step_u, step_v};
         cost += separable_cost_ns(level.terms, half) + 2.0 * rows * columns;
     }
     return cost;
