@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <set>
 #include <utility>
 
 #include "app/aperture_file.h"
 #include "app/diffraction_grid.h"
 #include "app/json_writer.h"
+#include "app/progress.h"
 #include "app/stopwatch.h"
 #include "core/error.h"
 #include "core/image_io.h"
@@ -39,6 +41,8 @@ struct Job {
     NearFieldParams near;
     FarFieldReport far_plan;
     NearFieldReport near_plan;
+    int wavelengths = 1;
+    double total_ms = 0;  ///< of all wavelengths, one thread; 0: not known
 };
 
 /// Bytes that a pattern holds at most: numbers, the largest of its intermediate pictures, codes of the files.
@@ -111,6 +115,32 @@ void compare_with_cheapest(Job& job, const DiffractionOptions& options) {
     }
 }
 
+PsfParams colour_params(const DiffractionOptions& options) {
+    PsfParams params;
+    params.light = *options.spectrum;
+    params.wavelengths = options.wavelengths;
+    return params;
+}
+
+int near_count(const DiffractionOptions& options) {
+    return options.wavelengths > 0 ? options.wavelengths : near_wavelengths;
+}
+
+/// How many wavelengths there are, and what they take together.
+void plan_colours(Job& job, const DiffractionOptions& options) {
+    if (options.spectrum && !options.near_m) {
+        const ColourPlan plan =
+            plan_far_field_colour(job.aperture, job.far_grid, reference_nm, colour_params(options));
+        job.far_plan = plan.middle;
+        job.wavelengths = plan.wavelengths;
+        job.total_ms = plan.cost_ms;
+        return;
+    }
+    if (options.spectrum)
+        job.wavelengths = static_cast<int>(spectral_samples(*options.spectrum, near_count(options)).size());
+    job.total_ms = job.wavelengths * (options.near_m ? job.near_plan.cost_ms : job.far_plan.cost_ms);
+}
+
 Job plan_job(const DiffractionOptions& options) {
     Job job;
     job.aperture = load_aperture(options);
@@ -128,6 +158,7 @@ Job plan_job(const DiffractionOptions& options) {
         job.far_plan = plan_far_field(job.aperture, job.far_grid, options.far);
     }
     compare_with_cheapest(job, options);
+    plan_colours(job, options);
     return job;
 }
 
@@ -159,7 +190,11 @@ std::string pattern_text(const DiffractionOptions& options, const Job& job) {
     const std::string method = options.near_m ? near_field_method_name(job.near_plan.method)
                                               : far_field_method_name(job.far_plan.method);
     const std::string& reason = options.near_m ? job.near_plan.reason : job.far_plan.reason;
-    return out + fmt::format("method    {}\n", reason.empty() ? method : reason);
+    out += fmt::format("method    {}\n", reason.empty() ? method : reason);
+    if (!options.spectrum) return out;
+    out += fmt::format("light     {} wavelengths", job.wavelengths);
+    if (job.total_ms > 0) out += fmt::format(", together about {:.3g} ms on one thread", job.total_ms);
+    return out + "\n";
 }
 
 /// Power of one wavelength, relative to the open wave's (near) or the whole opening's (far).
@@ -176,7 +211,9 @@ Image<float> power_of(const Field& field) {
     return power;
 }
 
-Pattern far_pattern(const DiffractionOptions& options, Job& job) {
+using Hear = std::function<void(double)>;
+
+Pattern far_pattern(const DiffractionOptions& options, Job& job, const Hear& progress) {
     Pattern pattern;
     const double unit = 1 / job.open;
     if (options.amplitude) {
@@ -189,22 +226,13 @@ Pattern far_pattern(const DiffractionOptions& options, Job& job) {
         scale_to(pattern.power, unit * unit);
     }
     if (options.spectrum) {
-        PsfParams params;
-        params.light = *options.spectrum;
-        params.wavelengths = options.wavelengths;
-        pattern.colour = far_field_colour(job.aperture, job.far_grid, reference_nm, params, options.exec);
+        pattern.colour = far_field_colour(job.aperture, job.far_grid, reference_nm, colour_params(options),
+                                          options.exec, progress);
     }
     return pattern;
 }
 
-/// Every wavelength of the light has its own near field; their colours add up.
-Image<Vec3f> near_colour(const DiffractionOptions& options, const Job& job) {
-    const int count = options.wavelengths > 0 ? options.wavelengths : near_wavelengths;
-    return near_field_colour(job.aperture, job.plane, job.near, *options.spectrum, count,
-                             NearFieldColour::exact, options.exec);
-}
-
-Pattern near_pattern(const DiffractionOptions& options, Job& job) {
+Pattern near_pattern(const DiffractionOptions& options, Job& job, const Hear& progress) {
     Pattern pattern;
     if (options.amplitude) {
         pattern.amplitude = near_field(job.aperture, job.plane, job.near, options.exec, &job.near_plan);
@@ -212,7 +240,26 @@ Pattern near_pattern(const DiffractionOptions& options, Job& job) {
     } else if (!options.spectrum) {
         pattern.power = near_field_intensity(job.aperture, job.plane, job.near, options.exec, &job.near_plan);
     }
-    if (options.spectrum) pattern.colour = near_colour(options, job);
+    // Every wavelength of the light has its own near field; their colours add up.
+    if (options.spectrum) {
+        pattern.colour =
+            near_field_colour(job.aperture, job.plane, job.near, *options.spectrum, near_count(options),
+                              NearFieldColour::exact, options.exec, progress);
+    }
+    return pattern;
+}
+
+/// Tells how far colours are that take long enough to ask.
+Pattern pattern_with_progress(const DiffractionOptions& options, Job& job) {
+    constexpr double worth_telling_ms = 2000;
+    const int threads = options.exec.threads > 0 ? options.exec.threads : hardware_threads();
+    Progress meter(stderr, Progress::style_for(
+                               stderr, job.wavelengths == 1 || job.total_ms < worth_telling_ms * threads));
+    meter.begin(fmt::format("{} wavelengths", job.wavelengths), 0, 1);
+    const Hear progress = [&](double share) { meter.update(share); };
+    Pattern pattern =
+        options.near_m ? near_pattern(options, job, progress) : far_pattern(options, job, progress);
+    meter.finish();
     return pattern;
 }
 
@@ -278,6 +325,7 @@ std::string stats_text(const DiffractionOptions& options, const Job& job, double
     json.member("method", near ? near_field_method_name(job.near_plan.method)
                                : far_field_method_name(job.far_plan.method));
     json.member("reason", near ? job.near_plan.reason : job.far_plan.reason);
+    json.member("wavelengths", job.wavelengths).member("planned_total_ms", job.total_ms);
     json.member("planned_ms", near ? job.near_plan.cost_ms : job.far_plan.cost_ms);
     json.member("quads", near ? job.near_plan.quads : job.far_plan.quads);
     json.member("edges", near ? job.near_plan.edges : job.far_plan.edges);
@@ -295,6 +343,10 @@ std::string stats_text(const DiffractionOptions& options, const Job& job, double
 int diffraction_command(const DiffractionOptions& options) {
     if (options.amplitude && options.spectrum)
         throw UsageError("--amplitude is of one wavelength: give --wavelength-nm, not --spectrum");
+    if (options.spectrum && !options.near_m &&
+        (options.far.method != FarFieldMethod::automatic || options.far.cull > 0))
+        throw UsageError(
+            "--method and --cull are of one wavelength or of --near: give --wavelength-nm, not --spectrum");
     if (!options.plan_only) check_files(options);
     Job job = plan_job(options);
     fmt::print("{}{}", aperture_text(options, job), pattern_text(options, job));
@@ -303,7 +355,7 @@ int diffraction_command(const DiffractionOptions& options) {
         fmt::print(stderr, "obscura: note: so far away the pattern is all but the far field's; see --far\n");
     if (options.plan_only) return 0;
     const Stopwatch watch;
-    const Pattern pattern = options.near_m ? near_pattern(options, job) : far_pattern(options, job);
+    const Pattern pattern = pattern_with_progress(options, job);
     const double seconds = watch.seconds();
     write_pattern(options, pattern);
     if (!options.stats_json.empty())

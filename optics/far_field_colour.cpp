@@ -64,20 +64,30 @@ int wavelength_count(const Colouring& c, double tolerance) {
     return spectral_rate(c.light, fringes * c.reference_nm / 550, tolerance).count;
 }
 
+std::vector<SpectralSample> exact_samples(const Colouring& c, const PsfParams& params) {
+    return spectral_samples(
+        params.light, params.wavelengths > 0 ? params.wavelengths : wavelength_count(c, params.tolerance));
+}
+
+/// Where a wavelength's pattern is sampled.
+FrequencyGrid grid_of(const Colouring& c, const SpectralSample& sample) {
+    FrequencyGrid grid = c.grid;
+    for (double* value : {&grid.first_u, &grid.first_v, &grid.step_u, &grid.step_v})
+        *value *= scale_of(c, sample);
+    return grid;
+}
+
 void add_exact(const Colouring& c, const std::vector<SpectralSample>& samples, Image<Vec3f>& sum,
-               const Exec& exec) {
+               const Exec& exec, const std::function<void(double)>& progress) {
     const std::vector<Vec3d> weights = weights_of(c, samples);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const double scale = scale_of(c, samples[i]);
-        FrequencyGrid grid = c.grid;
-        for (double* value : {&grid.first_u, &grid.first_v, &grid.step_u, &grid.step_v})
-            *value *= scale;
-        const Image<float> power = far_field_power(c.aperture, grid, {}, exec);
+        const Image<float> power = far_field_power(c.aperture, grid_of(c, samples[i]), {}, exec);
         const Vec3f colour = to_float(weights[i]);
         parallel_blocks(sum.pixels.size(), 1 << 14, exec, [&](std::size_t begin, std::size_t end) {
             for (std::size_t p = begin; p < end; ++p)
                 sum.pixels[p] = sum.pixels[p] + colour * power.pixels[p];
         });
+        if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(samples.size()));
     }
 }
 
@@ -114,10 +124,8 @@ void add_batches(const Colouring& c, const std::vector<SpectralSample>& samples,
     }
 }
 
-}  // namespace
-
-Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
-                              const PsfParams& params, const Exec& exec) {
+Colouring colouring_of(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
+                       const PsfParams& params) {
     if (!(reference_nm >= 100 && reference_nm <= 10000))
         throw UsageError("reference wavelength must be 100 to 10000 nm");
     if (params.wavelengths < 0 || params.wavelengths > 100000)
@@ -126,7 +134,26 @@ Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& gri
         throw UsageError("tolerance must be 0.0001 to 0.5");
     const Colouring c{aperture, grid, reference_nm, open_area(aperture.mask.view()), params.light};
     if (!(c.peak > 0)) throw InputError("aperture", "lets no light through");
+    return c;
+}
 
+}  // namespace
+
+ColourPlan plan_far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
+                                 const PsfParams& params) {
+    const Colouring c = colouring_of(aperture, grid, reference_nm, params);
+    const std::vector<SpectralSample> samples = exact_samples(c, params);
+    ColourPlan plan;
+    plan.wavelengths = static_cast<int>(samples.size());
+    plan.middle = plan_far_field(aperture, grid_of(c, samples[samples.size() / 2]), {});
+    plan.cost_ms = plan.wavelengths * plan.middle.cost_ms;
+    return plan;
+}
+
+Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
+                              const PsfParams& params, const Exec& exec,
+                              const std::function<void(double)>& progress) {
+    const Colouring c = colouring_of(aperture, grid, reference_nm, params);
     Image<Vec3f> sum(grid.width, grid.height);
     if (params.method == SpectralMethod::batch) {
         const auto samples = geometric_samples(params.light, 4 * batch_lookups);
@@ -136,8 +163,7 @@ Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& gri
         }
     }
     if (params.method == SpectralMethod::exact) {
-        const int count = params.wavelengths > 0 ? params.wavelengths : wavelength_count(c, params.tolerance);
-        add_exact(c, spectral_samples(params.light, count), sum, exec);
+        add_exact(c, exact_samples(c, params), sum, exec, progress);
     } else {
         const int count = params.wavelengths > 0 ? params.wavelengths : lookup_wavelengths;
         add_lookups(c, spectral_samples(params.light, count), sum, exec);

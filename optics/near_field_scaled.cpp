@@ -57,19 +57,23 @@ Image<float> scaled_intensity(ImageView<const float> reference, const PlaneGrid&
 }
 
 Image<Vec3f> near_field_colour(const Aperture& aperture, const PlaneGrid& grid, const NearFieldParams& params,
-                               const LightSpectrum& light, int count, NearFieldColour how, const Exec& exec) {
+                               const LightSpectrum& light, int count, NearFieldColour how, const Exec& exec,
+                               const std::function<void(double)>& progress) {
     NearFieldParams p = params;
     p.wavelength_m = near_field_reference_nm * 1e-9;
     Image<float> reference;
     if (how == NearFieldColour::scaled) reference = near_field_intensity(aperture, grid, p, exec);
     Image<Vec3f> sum(grid.width, grid.height);
-    for (const SpectralSample& s : spectral_samples(light, count)) {
+    const std::vector<SpectralSample> samples = spectral_samples(light, count);
+    std::size_t done = 0;
+    for (const SpectralSample& s : samples) {
         p.wavelength_m = s.wavelength_nm * 1e-9;
         add_colour(sum,
                    how == NearFieldColour::exact
                        ? near_field_intensity(aperture, grid, p, exec)
                        : scaled_intensity(reference.view(), grid, near_field_reference_nm / s.wavelength_nm),
                    s.rgb, exec);
+        if (progress) progress(static_cast<double>(++done) / static_cast<double>(samples.size()));
     }
     return sum;
 }

@@ -73,8 +73,19 @@ PsfPlan plan_far_field_psf(const Aperture& aperture, const PsfParams& params);
 
 /// The coloured far field alone: pixel (x, y) shows frequency grid(x, y) at reference_nm, all wavelengths
 /// added (equation 3.16). Linear sRGB, luminance 1 at frequency 0; single colours may lie outside the gamut
-/// and have negative channels (see into_gamut()). Throws as above.
+/// and have negative channels (see into_gamut()). Throws as above. `progress` hears in this thread, after
+/// every wavelength of SpectralMethod::exact, which share is done.
 Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
-                              const PsfParams& params, const Exec& exec);
+                              const PsfParams& params, const Exec& exec,
+                              const std::function<void(double)>& progress = {});
+
+/// What that does by SpectralMethod::exact.
+struct ColourPlan {
+    int wavelengths = 0;
+    FarFieldReport middle;  ///< plan of the wavelength in the middle
+    double cost_ms = 0;     ///< of all, as if they were all like that; estimate for one thread
+};
+ColourPlan plan_far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
+                                 const PsfParams& params);
 
 }  // namespace obscura

@@ -206,6 +206,19 @@ TEST(DiffractionCommand, AMethodAskedForStandsBesideTheCheapest) {
     EXPECT_NE(near.out.find("the cheapest, "), std::string::npos) << near.out;
 }
 
+TEST(DiffractionCommand, ThePlanCountsWavelengths) {
+    const Folder folder;
+    const auto plan = [&](std::vector<std::string> flags) {
+        flags.insert(flags.begin(), {"diffraction", "iris", "--plan"});
+        return run_in(folder, flags).out;
+    };
+    const std::string far = plan({"--spectrum", "d65", "--wavelengths", "17"});
+    EXPECT_NE(far.find("light     17 wavelengths, together about "), std::string::npos) << far;
+    const std::string near = plan({"--spectrum", "equal", "--near", "5"});
+    EXPECT_NE(near.find("light     40 wavelengths, together about "), std::string::npos) << near;
+    EXPECT_EQ(plan({"--wavelength-nm", "500"}).find("light "), std::string::npos);
+}
+
 TEST(DiffractionCommand, NearFieldsFarAwayHintAtTheFarField) {
     const Folder folder;
     const auto notes = [&](const char* mm) {
@@ -311,6 +324,7 @@ TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
          2,
          "give either --wavelength-nm or --spectrum"},
         {{"iris", "--spectrum", "d65", "--amplitude"}, 2, "--amplitude is of one wavelength"},
+        {{"iris", "--spectrum", "d65", "--method", "edges"}, 2, "--method and --cull are of one wavelength"},
         {{"iris", "--wavelengths", "9"}, 2, "--wavelengths needs --spectrum"},
         {{"iris", "--pitch-um", "5x6"}, 2, "texels must be square"},
         {{"iris", "--pitch-um", "5", "--diameter-mm", "6"}, 2, "give either --diameter-mm or --pitch-um"},
