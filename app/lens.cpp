@@ -120,21 +120,6 @@ int kernel_side(const OpticsSettings& optics) {
     return 2 * optics.radius_px + 1;
 }
 
-std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render) {
-    if (!optics.enabled) return 0;
-    const std::int64_t side = kernel_side(optics);
-    const std::int64_t texels = optics.aperture == "file"
-                                    ? std::int64_t{optics.mask.width} * optics.mask.height
-                                    : std::int64_t{optics.mask_px} * optics.mask_px;
-    // The pattern of one wavelength, and sums of colours in double and float, while the kernel is made; then
-    // the glare itself, when all of the picture is bright.
-    const std::int64_t pattern =
-        side * side * std::int64_t{4 * sizeof(float) + sizeof(Vec3d) + sizeof(Vec3f)};
-    const std::int64_t aperture = texels * std::int64_t{4 * sizeof(float)};
-    return pattern + aperture +
-           most_glare(render.width, render.height, kernel_side(optics), glare_params(optics, render)).bytes;
-}
-
 std::string lens_text(const OpticsSettings& o, const RenderSettings& render) {
     if (!o.enabled) return "";
     const PsfParams params = psf_params(o, render);

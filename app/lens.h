@@ -27,9 +27,6 @@ GlareParams glare_params(const OpticsSettings& optics, const RenderSettings& ren
 /// Side of the kernel, pixels.
 int kernel_side(const OpticsSettings& optics);
 
-/// Bytes that patterns and glare hold at most beside the frame.
-std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render);
-
 /// What `obscura check` tells: the lens, the kernel, the cost; lines begin with a word of ten columns.
 std::string lens_text(const OpticsSettings& optics, const RenderSettings& render);
 

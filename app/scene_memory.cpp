@@ -5,11 +5,12 @@
 #include <algorithm>
 
 #include "app/frame_tile.h"
+#include "app/glare_memory.h"
 #include "app/keyframes.h"
-#include "app/lens.h"
 #include "app/needed_texels.h"
 #include "app/scene_build.h"
 #include "app/scene_shapes.h"
+#include "app/source_kernels.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "hierarchy/facets.h"
@@ -140,7 +141,8 @@ MemoryEstimate estimate_memory(const Scene& scene) {
     }
     for (const Light& light : scene.lights)
         e.shadow_maps += shadow_map_bytes(light);
-    e.frame = picture_bytes(scene.render) + work_bytes(scene) + glare_bytes(scene.optics, scene.render);
+    e.frame = picture_bytes(scene.render) + work_bytes(scene) +
+              glare_bytes(scene.optics, scene.render, lamp_count(scene));
     return e;
 }
 
@@ -153,7 +155,9 @@ MemoryEstimate estimate_memory(const SceneDocument& document) {
     for (const SceneTable* light : subtables(document.root, "light"))
         e.shadow_maps += shadow_map_bytes(light_of(*light));
     const RenderSettings render = render_settings_of(document);
-    e.frame = picture_bytes(render) + glare_bytes(optics_of(document, scene_frames(document).first), render);
+    // Lamps are counted when their meshes are there.
+    e.frame =
+        picture_bytes(render) + glare_bytes(optics_of(document, scene_frames(document).first), render, 0);
     return e;
 }
 

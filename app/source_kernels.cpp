@@ -30,8 +30,10 @@ constexpr int defocus_wavelengths = 24;
 struct LampPixel {
     int x = 0, y = 0;
     Vec3d point;
-    Image<std::uint8_t> visible;
 };
+
+// A list that grows is there twice, and half of it may be empty.
+static_assert(3 * sizeof(LampPixel) + 2 * sizeof(double) * 3 <= bytes_per_lamp_pixel);
 
 bool clips(const Frame& frame, int x, int y, double clip) {
     const Vec3f p = frame.radiance.view()(x, y);
@@ -80,7 +82,7 @@ std::map<std::uint32_t, std::vector<LampPixel>> lamp_pixels(const Scene& scene, 
             const auto along = [&](int k) {
                 return rays.eye[k] + z * (rays.dir0[k] + X * rays.dir_x[k] + Y * rays.dir_y[k]);
             };
-            found[frame.object(i, j)].push_back({x, y, {along(0), along(1), along(2)}, {}});
+            found[frame.object(i, j)].push_back({x, y, {along(0), along(1), along(2)}});
         }
     }
     return found;
@@ -207,15 +209,13 @@ class HiddenLamps {
           pupil_(pupil_plane(scene.camera, pupil_m(scene.optics))),
           survey_(survey_of(aperture.mask)) {}
 
-    void add(std::vector<LampPixel>& pixels, SourceKernels& to) const {
+    void add(const std::vector<LampPixel>& pixels, SourceKernels& to) const {
         const std::vector<std::uint32_t> near = candidates(pixels);
+        std::vector<Visible> seen(pixels.size());
         parallel_blocks(pixels.size(), 16, exec_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                pixels[i].visible = visible(pixels[i], near, survey_texels);
+                seen[i] = summary(visible(pixels[i], near, survey_texels), survey_);
         });
-        std::vector<Visible> seen;
-        for (const LampPixel& pixel : pixels)
-            seen.push_back(summary(pixel.visible, survey_));
         for (const auto& [key, members] : classes_of(seen, scene_.optics.visibility_samples)) {
             const LampPixel& sample = pixels[typical(members, seen)];
             const Aperture part = hidden_aperture(aperture_, visible(sample, near, aperture_.mask.width));
@@ -326,6 +326,12 @@ std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to) {
     return static_cast<std::uint16_t>(to.kernels.size() - 1);
 }
 
+std::int64_t lamp_count(const Scene& scene) {
+    if (!scene.optics.enabled) return 0;
+    const std::vector<bool> lamps = lamps_of(scene, glare_params(scene.optics, scene.render).clip);
+    return std::count(lamps.begin(), lamps.end(), true);
+}
+
 bool wants_source_kernels(const OpticsSettings& optics) {
     return optics.enabled && (optics.visibility != PupilVisibility::open || optics.focus_m > 0);
 }
@@ -338,7 +344,7 @@ SourceKernels source_kernels(const Scene& scene, const Frame& frame, double clip
     if (scene.optics.focus_m > 0) add_defocus(scene, frame, clip, aperture, exec, result);
     if (scene.optics.visibility == PupilVisibility::open) return result;
     const HiddenLamps hidden(scene, frame, clip, aperture, exec);
-    for (auto& [object, pixels] : lamp_pixels(scene, frame, clip))
+    for (const auto& [object, pixels] : lamp_pixels(scene, frame, clip))
         hidden.add(pixels, result);
     return result;
 }

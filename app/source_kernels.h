@@ -24,6 +24,12 @@ constexpr std::size_t most_kernels = 65536;
 /// Its index. Throws LimitError when there are most_kernels already.
 std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to);
 
+/// Objects of the scene whose own light clips: only they have patterns of their own when partly hidden.
+std::int64_t lamp_count(const Scene& scene);
+
+/// Held of each bright pixel of a lamp while kernels are chosen, lists growing included.
+constexpr std::int64_t bytes_per_lamp_pixel = 160;
+
 /// True when the scene asks for such kernels; they need the frame's depth (and object) channels.
 bool wants_source_kernels(const OpticsSettings& optics);
 

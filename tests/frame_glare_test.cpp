@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "app/check_command.h"
+#include "app/glare_memory.h"
 #include "app/lens.h"
 #include "app/render_frame.h"
 #include "app/render_stats.h"
 #include "app/scene_build.h"
+#include "app/source_kernels.h"
 #include "core/error.h"
 #include "core/isa.h"
 #include "core/num.h"
@@ -230,6 +232,37 @@ TEST(FrameGlare, MemoryIsPlannedBeforeTheWork) {
     Scene wide = scene;
     wide.optics.radius_px = 4000;
     EXPECT_GT(estimate_memory(wide).frame, with + (std::int64_t{1} << 30));
+}
+
+TEST(FrameGlare, MemoryCountsEveryKernelAndTheFinestMask) {
+    const std::int64_t kernel = 41 * 41 * 12;
+    const auto frame_bytes = [](const std::string& keys) {
+        return estimate_memory(scene_of(night(lens + keys))).frame;
+    };
+    EXPECT_EQ(lamp_count(scene_of(night(lens))), 1);
+    EXPECT_EQ(lamp_count(scene_of(night(std::string(lens) + "clip = 1000\n"))), 0);
+    EXPECT_GE(frame_bytes("visibility = \"exact\"\nvisibility_samples = 100\n"),
+              frame_bytes("") + 100 * kernel);
+    EXPECT_EQ(frame_bytes("visibility = \"exact\"\nvisibility_samples = 9\n") -
+                  frame_bytes("visibility = \"exact\"\nvisibility_samples = 4\n"),
+              5 * kernel);
+    EXPECT_EQ(frame_bytes("focus_m = 3\nfocus_steps = 9\n") - frame_bytes("focus_m = 3\nfocus_steps = 4\n"),
+              5 * kernel);
+    // Nine samples a pixel of all colours, of one kernel at a time.
+    const OpticsSettings wide = [] {
+        OpticsSettings o = scene_of(night(lens)).optics;
+        o.focus_m = 3;
+        o.radius_px = 4096;
+        return o;
+    }();
+    EXPECT_GT(glare_bytes(wide, {}, 0), std::int64_t{9} * 8193 * 8193 * 16);
+    // Far streaks of a wide lens are made of a mask as fine as masks get.
+    OpticsSettings fine = scene_of(night(lens)).optics;
+    const RenderSettings render = scene_of(night(lens)).render;
+    EXPECT_LT(finest_mask_side(fine, render), 4096);
+    fine.f_number = 1;
+    EXPECT_EQ(finest_mask_side(fine, render), 4096);
+    EXPECT_GT(glare_bytes(fine, render, 0), std::int64_t{4096} * 4096 * 4);
 }
 
 TEST(FrameGlare, StatisticsTellOfIt) {
