@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/parallel.h"
@@ -31,7 +32,8 @@ struct Box {
     int height() const { return y1 - y0; }
 };
 
-/// Moves the pixels above the clip level out of the picture, one list per kernel.
+/// Moves the pixels above the clip level out of the picture, one list per kernel. Negative channels are no
+/// light and stay.
 std::vector<std::vector<Source>> take_sources(ImageView<Vec3f> picture, const GlareKernels& kernels,
                                               double clip) {
     std::vector<std::vector<Source>> sources(kernels.kernels.size());
@@ -43,8 +45,8 @@ std::vector<std::vector<Source>> take_sources(ImageView<Vec3f> picture, const Gl
             if (!finite || !(static_cast<double>(largest) > clip)) continue;
             const std::size_t k = kernels.choice.data == nullptr ? 0 : kernels.choice(x, y);
             CHECK(k < sources.size(), "a pixel chose a kernel that is not there");
-            sources[k].push_back({x, y, p});
-            p = {};
+            sources[k].push_back({x, y, {std::max(p.x, 0.0f), std::max(p.y, 0.0f), std::max(p.z, 0.0f)}});
+            p = {std::min(p.x, 0.0f), std::min(p.y, 0.0f), std::min(p.z, 0.0f)};
         }
     }
     return sources;
@@ -68,11 +70,24 @@ Image<float> plane_of(ImageView<const Vec3f> image, float Vec3f::*channel) {
     return plane;
 }
 
-Image<float> plane_of(const std::vector<Source>& sources, const Box& box, float Vec3f::*channel) {
-    Image<float> plane(box.width(), box.height());
+/// One channel of the sources, in units of a power of two: 1, but for light so bright that the sums of
+/// transforms would overflow.
+struct Light {
+    Box box;
+    Image<float> plane;
+    double unit = 1;
+};
+
+Light light_of(const std::vector<Source>& sources, const Box& box, float Vec3f::*channel) {
+    Light light{box, Image<float>(box.width(), box.height()), 1};
+    float most = 0;
     for (const Source& s : sources)
-        plane(s.x - box.x0, s.y - box.y0) = s.light.*channel;
-    return plane;
+        most = std::max(most, s.light.*channel);
+    if (most > 0x1p64f) light.unit = std::ldexp(1.0, std::ilogb(most));
+    const auto scale = static_cast<float>(1 / light.unit);
+    for (const Source& s : sources)
+        light.plane(s.x - box.x0, s.y - box.y0) = s.light.*channel * scale;
+    return light;
 }
 
 double sum_of(const std::vector<float>& values) {
@@ -82,16 +97,24 @@ double sum_of(const std::vector<float>& values) {
     return sum;
 }
 
-/// Light of one channel: all of it, what stayed in the pixels it came from, what fell outside.
+/// Light: all of it, what stayed in the pixels it came from, what fell outside, what kernels do not pass on.
 struct Balance {
-    double light = 0, stayed = 0, lost = 0;
+    double light = 0, stayed = 0, lost = 0, blocked = 0;
 };
 
-/// Adds value(x, y) to every pixel of a rectangle of the picture; rounding of transforms may leave the light
-/// a little below 0, never the picture. Returns the sum of what was added.
+/// Light is never negative, though rounding of transforms may leave it a little below 0: no pixel gets
+/// darker than it was or than 0. The largest number is the brightest that there is.
+float brightened(float before, double light) {
+    const double after = static_cast<double>(before) + light;
+    if (!std::isfinite(before)) return before;
+    constexpr float most = std::numeric_limits<float>::max();
+    return std::max(static_cast<float>(std::min(after, static_cast<double>(most))), std::min(before, 0.0f));
+}
+
+/// Adds value(x, y) units to every pixel of a rectangle of the picture. Returns the sum of what was added.
 template <class Value>
-double add_light(ImageView<Vec3f> picture, const Box& box, float Vec3f::*channel, const Exec& exec,
-                 Value&& value) {
+double add_light(ImageView<Vec3f> picture, const Box& box, double unit, float Vec3f::*channel,
+                 const Exec& exec, Value&& value) {
     const int x0 = std::max(box.x0, 0), x1 = std::min(box.x1, picture.width);
     const int y0 = std::max(box.y0, 0), y1 = std::min(box.y1, picture.height);
     if (x0 >= x1 || y0 >= y1) return 0;
@@ -101,9 +124,9 @@ double add_light(ImageView<Vec3f> picture, const Box& box, float Vec3f::*channel
             const int y = y0 + static_cast<int>(i);
             Vec3f* row = picture.row(y);
             for (int x = x0; x < x1; ++x) {
-                const float v = value(x, y);
-                row[x].*channel = std::max(row[x].*channel + v, 0.0f);
-                row_sums[i] += static_cast<double>(v);
+                const double v = unit * static_cast<double>(value(x, y));
+                row[x].*channel = brightened(row[x].*channel, v);
+                row_sums[i] += v;
             }
         }
     });
@@ -119,20 +142,21 @@ Image<float> convolve(const Image<float>& source, const Image<float>& kernel, bo
 }
 
 /// What is left of the sources' light outside the picture.
-double add_full(ImageView<Vec3f> picture, const Box& box, const Image<float>& source,
-                const Image<float>& kernel, bool fft, float Vec3f::*channel, const Exec& exec) {
-    const Image<float> light = convolve(source, kernel, fft, exec);
-    const int x0 = box.x0 - kernel.width / 2, y0 = box.y0 - kernel.height / 2;
+double add_full(ImageView<Vec3f> picture, const Light& source, const Image<float>& kernel, bool fft,
+                float Vec3f::*channel, const Exec& exec) {
+    const Image<float> light = convolve(source.plane, kernel, fft, exec);
+    const int x0 = source.box.x0 - kernel.width / 2, y0 = source.box.y0 - kernel.height / 2;
     const Box reach{x0, y0, x0 + light.width, y0 + light.height};
-    const double inside =
-        add_light(picture, reach, channel, exec, [&](int x, int y) { return light(x - x0, y - y0); });
-    return sum_of(light.pixels) - inside;
+    const double inside = add_light(picture, reach, source.unit, channel, exec,
+                                    [&](int x, int y) { return light(x - x0, y - y0); });
+    return source.unit * sum_of(light.pixels) - inside;
 }
 
 /// The same, on a grid `scale` times as coarse.
-double add_coarse(ImageView<Vec3f> picture, const Box& box, const Image<float>& source,
-                  const Image<float>& kernel, int scale, float Vec3f::*channel, const Exec& exec) {
-    const Image<float> coarse = coarsened(source.view(), scale);
+double add_coarse(ImageView<Vec3f> picture, const Light& source, const Image<float>& kernel, int scale,
+                  float Vec3f::*channel, const Exec& exec) {
+    const Box& box = source.box;
+    const Image<float> coarse = coarsened(source.plane.view(), scale);
     const auto bright =
         std::count_if(coarse.pixels.begin(), coarse.pixels.end(), [](float v) { return v != 0; });
     const bool fft = plan_convolution(bright, coarse.width, coarse.height, kernel.width, kernel.height).fft;
@@ -140,10 +164,10 @@ double add_coarse(ImageView<Vec3f> picture, const Box& box, const Image<float>& 
     const CoarsePlane plane{light.view(), 1 + kernel.width / 2, scale};
     const int reach = (kernel.width / 2 + 1) * scale;
     const Box around{box.x0 - reach, box.y0 - reach, box.x1 + reach, box.y1 + reach};
-    const double inside = add_light(picture, around, channel, exec, [&](int x, int y) {
+    const double inside = add_light(picture, around, source.unit, channel, exec, [&](int x, int y) {
         return static_cast<float>(plane.at(x - box.x0, y - box.y0));
     });
-    return sum_of(light.pixels) - inside;
+    return source.unit * sum_of(light.pixels) - inside;
 }
 
 /// Spreads the sources of one kernel.
@@ -152,20 +176,21 @@ Balance spread(ImageView<Vec3f> picture, const std::vector<Source>& sources, con
     const Box box = box_of(sources);
     Balance total;
     for (float Vec3f::*const channel : channels) {
-        const Image<float> source = plane_of(sources, box, channel);
-        const double light = sum_of(source.pixels);
+        const Light source = light_of(sources, box, channel);
+        const double light = source.unit * sum_of(source.plane.pixels);
         if (light == 0) continue;
         const Image<float> taps = plane_of(kernel.view(), channel);
         const double centre = static_cast<double>(taps(taps.width / 2, taps.height / 2));
         total.light += light;
         total.stayed += light * centre;
+        total.blocked += light * (1 - sum_of(taps.pixels));
         if (scale == 1) {
-            total.lost += add_full(picture, box, source, taps, fft, channel, exec);
+            total.lost += add_full(picture, source, taps, fft, channel, exec);
             continue;
         }
         const SplitKernel split = split_kernel(taps.view(), scale);
-        total.lost += add_full(picture, box, source, split.core, false, channel, exec);
-        total.lost += add_coarse(picture, box, source, split.outskirts, scale, channel, exec);
+        total.lost += add_full(picture, source, split.core, false, channel, exec);
+        total.lost += add_coarse(picture, source, split.outskirts, scale, channel, exec);
     }
     return total;
 }
@@ -208,6 +233,7 @@ void spread_glare(ImageView<Vec3f> radiance, const GlareKernels& kernels, const 
         total.light += balance.light;
         total.stayed += balance.stayed;
         total.lost += balance.lost;
+        total.blocked += balance.blocked;
         told.sources += count;
         told.fft = told.fft || plan.fft;
         told.cost_ms += 3 * (plan.fft ? plan.fft_ms : plan.splat_ms);
@@ -218,8 +244,12 @@ void spread_glare(ImageView<Vec3f> radiance, const GlareKernels& kernels, const 
     }
     if (told.sources > 0) {
         told.reason = reason_text(told.sources, used, sum_of_plans, kernels.kernels[0].width, params);
-        told.spread = 1 - total.stayed / total.light;
+    }
+    if (total.light > 0) {
         told.lost = std::max(total.lost / total.light, 0.0);  // rounding may tip it
+        const double blocked = total.blocked / total.light;
+        told.blocked = blocked > 1e-5 ? blocked : 0;  // less is the rounding of taps
+        told.spread = 1 - told.blocked - total.stayed / total.light;
     }
     if (report != nullptr) *report = told;
 }

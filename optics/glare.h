@@ -31,6 +31,7 @@ struct GlareReport {
     std::string reason;        ///< one line; says so when nothing clips
     double spread = 0;         ///< share of the sources' light that left its pixel
     double lost = 0;           ///< share that fell outside the picture
+    double blocked = 0;        ///< share that kernels of a sum below 1 do not pass on
 };
 
 /// Kernels of the sources: pixel (x, y) spreads by kernels[choice(x, y)], or by the first where `choice` is
@@ -41,8 +42,11 @@ struct GlareKernels {
 };
 
 /// Replaces every pixel brighter than the clip level by its light spread over its kernel. Linear radiance;
-/// what falls outside the picture is lost (and counted). Energy: sum of the picture + lost = sum before,
-/// within 1e-4 of the sources'. Pixels that are not finite stay as they are. The same bits for any exec.
+/// what falls outside the picture is lost, what kernels of a sum below 1 hold back is blocked (both are
+/// counted). Energy: sum of the picture + lost + blocked = sum before, within 1e-4 of the sources', unless
+/// pixels would grow beyond the largest float, where they stop. Negative channels are no light: they stay,
+/// and what falls on them adds to them. Pixels that are not finite stay as they are. The same bits for any
+/// exec.
 void spread_glare(ImageView<Vec3f> radiance, const GlareKernels& kernels, const GlareParams& params,
                   const Exec& exec, GlareReport* report = nullptr);
 
