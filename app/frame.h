@@ -39,6 +39,7 @@ struct GlareStats {
     double cycles_per_px = 0;     ///< cycles of the pupil's diameter, at the mean wavelength
     double captured = 0;          ///< share of the light that the kernel's square catches
     double spread = 0, lost = 0;  ///< shares of the sources' light: left its pixel, left the picture
+    double blocked = 0;           ///< share that what stands before the lens keeps from it
     std::string reason;
 };
 

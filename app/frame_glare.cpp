@@ -106,6 +106,7 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
     stats.fft = report.fft;
     stats.spread = report.spread;
     stats.lost = report.lost;
+    stats.blocked = report.blocked;
     stats.reason = report.reason;
     stats.wavelengths = kept->wavelengths;
     stats.cycles_per_px = kept->cycles_per_px;

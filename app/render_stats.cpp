@@ -44,7 +44,10 @@ void put_counts(JsonWriter& json, const FrameStats& s) {
 void put_glare(JsonWriter& json, const GlareStats& s) {
     json.key("glare").begin_object();
     json.member("sources", s.sources).member("method", s.fft ? "fft" : "splats").member("reason", s.reason);
-    json.member("spread", s.spread).member("lost", s.lost).member("psf_kept", s.kept);
+    json.member("spread", s.spread)
+        .member("lost", s.lost)
+        .member("blocked", s.blocked)
+        .member("psf_kept", s.kept);
     json.member("kernels", s.kernels).member("own_kernel_sources", s.own_kernel_sources);
     json.member("wavelengths", s.wavelengths).member("cycles_per_px", s.cycles_per_px);
     json.member("captured", s.captured).end_object();

@@ -17,6 +17,7 @@
 #include "app/visible_pupil.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "optics/aperture_extent.h"
 #include "optics/near_field_scaled.h"
 #include "raster/camera_rays.h"
 
@@ -197,6 +198,12 @@ Aperture hidden_aperture(const Aperture& aperture, const Image<std::uint8_t>& op
     return part;
 }
 
+Image<Vec3f> dimmed(Image<Vec3f> kernel, double share) {
+    for (Vec3f& p : kernel.pixels)
+        p = p * static_cast<float>(share);
+    return kernel;
+}
+
 class HiddenLamps {
   public:
     HiddenLamps(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
@@ -221,7 +228,7 @@ class HiddenLamps {
             const Aperture part = hidden_aperture(aperture_, visible(sample, near, aperture_.mask.width));
             if (!(open_area(part.mask.view()) > 0)) continue;
             const Psf psf = far_field_psf(part, psf_params(scene_.optics, scene_.render), exec_);
-            const std::uint16_t kernel = add_kernel(unit_kernel(psf.kernel), to);
+            const std::uint16_t kernel = add_kernel(dimmed(unit_kernel(psf.kernel), passed(part)), to);
             for (const std::size_t i : members)
                 to.choice(pixels[i].x, pixels[i].y) = kernel;
             to.hidden_sources += static_cast<std::int64_t>(members.size());
@@ -229,6 +236,12 @@ class HiddenLamps {
     }
 
   private:
+    /// Share of the lens's light that the part gathers. What the picture says of a lamp's light is a
+    /// pinhole's, all of it; what neighbours say of the lens is a guess of its shape, not of its light.
+    double passed(const Aperture& part) const {
+        if (scene_.optics.visibility != PupilVisibility::exact) return 1;
+        return transmitted_power(part.mask.view()) / transmitted_power(aperture_.mask.view());
+    }
     std::vector<std::uint32_t> candidates(const std::vector<LampPixel>& pixels) const {
         if (scene_.optics.visibility != PupilVisibility::exact) return {};
         Vec3d centre;

@@ -11,7 +11,8 @@
 
 namespace obscura {
 
-/// kernels[0] is the open lens in focus; choice(x, y) names the kernel of a pixel that clips.
+/// kernels[0] is the open lens in focus; choice(x, y) names the kernel of a pixel that clips. Channels sum to
+/// 1, or with visibility "exact" to the share of the lens's light that what is not hidden lets through.
 struct SourceKernels {
     std::vector<Image<Vec3f>> kernels;
     Image<std::uint16_t> choice;
@@ -34,7 +35,7 @@ constexpr std::int64_t bytes_per_lamp_pixel = 160;
 bool wants_source_kernels(const OpticsSettings& optics);
 
 /// The frame: radiance, depth_m and object of the whole picture. `clip`: radiance from which on pixels glare.
-/// `open`: the kernel of the lens in focus, each channel of sum 1, as those that are added.
+/// `open`: the kernel of the lens in focus, each channel of sum 1.
 SourceKernels source_kernels(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
                              const Image<Vec3f>& open, const Exec& exec);
 

@@ -282,10 +282,38 @@ TEST(SourceKernels, ALampBehindAPostSeesPartOfIt) {
     EXPECT_LE(exact.stats.glare->kernels, 5);
     EXPECT_GT(exact.stats.glare->own_kernel_sources, 0);
     EXPECT_GT(cheap.stats.glare->own_kernel_sources, exact.stats.glare->own_kernel_sources / 8);
-    // Light is spread otherwise, and stays.
-    EXPECT_NEAR(light_of(exact), light_of(open), 2e-3 * light_of(open));
+    // Light is spread otherwise; what is hidden from the lens is missing, and counted.
+    EXPECT_GT(exact.stats.glare->blocked, 0.01);
+    EXPECT_EQ(cheap.stats.glare->blocked, 0);
+    EXPECT_NEAR(light_of(exact), (1 - exact.stats.glare->blocked) * light_of(open), 4e-3 * light_of(open));
     EXPECT_NEAR(light_of(cheap), light_of(open), 2e-3 * light_of(open));
     EXPECT_EQ(exact.depth_m.width, 0) << "channels that nobody wanted are gone";
+}
+
+TEST(SourceKernels, ALampSeenThroughAGapGivesWhatTheGapLetsThrough) {
+    // A gap of 8 mm at 1 m: from a point of the lamp at 10 m it is 8 mm * 10 / 9 of a pupil of 50 mm wide.
+    const char* const shutters = R"([[mesh]]
+id = "left"
+shape = "box"
+size_m = [1, 4, 0.001]
+translate_m = [-0.504, 0, -1]
+[[mesh]]
+id = "right"
+shape = "box"
+size_m = [1, 4, 0.001]
+translate_m = [0.504, 0, -1]
+)";
+    const Frame open = frame_of(lamp_scene("", shutters)),
+                exact = frame_of(lamp_scene("visibility = \"exact\"\nvisibility_samples = 16\n", shutters));
+    // The gap's share of the circle, from the middle to the edges of what the pinhole shows through it.
+    const double half = 0.5 * 8 * 10 / 9 / 25;
+    const auto strip = [](double x) { return (x * std::sqrt(1 - x * x) + std::asin(x)) / 3.14159265358979; };
+    const double in_the_middle = 2 * strip(half), at_its_edge = strip(2 * half);
+    ASSERT_GT(open.stats.glare->sources, 0);
+    EXPECT_EQ(exact.stats.glare->sources, open.stats.glare->sources);
+    EXPECT_GT(1 - exact.stats.glare->blocked, at_its_edge - 0.03);
+    EXPECT_LT(1 - exact.stats.glare->blocked, in_the_middle + 0.03);
+    EXPECT_NEAR(light_of(exact), (1 - exact.stats.glare->blocked) * light_of(open), 4e-3 * light_of(open));
 }
 
 TEST(SourceKernels, OutOfFocusLampsShowDiscs) {
