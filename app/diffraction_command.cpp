@@ -193,7 +193,7 @@ std::string pattern_text(const DiffractionOptions& options, const Job& job) {
     out += fmt::format("method    {}\n", reason.empty() ? method : reason);
     if (!options.spectrum) return out;
     out += fmt::format("light     {} wavelengths", job.wavelengths);
-    if (job.total_ms > 0) out += fmt::format(", together about {:.3g} ms on one thread", job.total_ms);
+    if (job.total_ms > 0) out += fmt::format(", together about {:.3g} s on one thread", 1e-3 * job.total_ms);
     return out + "\n";
 }
 
