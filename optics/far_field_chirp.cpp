@@ -109,15 +109,16 @@ RowSums row_sums(const RowRuns& row_runs, int width) {
     RowSums sums{row_runs, false, {}, {}, {}, {}};
     const double middle = width / 2.0;
     const std::size_t edges = static_cast<std::size_t>(width) + 1, runs = sums.runs.begin.size();
-    sums.tabulated = edges + runs / runs_per_transform < runs;
+    sums.tabulated = edges / 2 + runs / runs_per_transform < runs;
     if (sums.tabulated) {
-        for (int x = 0; x <= width; ++x) {
-            sums.begin.push_back(x);
+        // Those left of the middle are mirror images.
+        for (int x = (width + 1) / 2; x <= width; ++x) {
+            sums.begin.push_back(static_cast<std::int32_t>(sums.x0.size()));
             sums.x0.push_back(0);
             sums.x1.push_back(x - middle);
             sums.weight.push_back(-1);  // run_sums16 subtracts ends from beginnings
         }
-        sums.begin.push_back(width + 1);
+        sums.begin.push_back(static_cast<std::int32_t>(sums.x0.size()));
         return sums;
     }
     sums.begin = sums.runs.first;
@@ -130,16 +131,26 @@ RowSums row_sums(const RowRuns& row_runs, int width) {
 }
 
 /// Sixteen columns from `column` on: element 16 y + lane.
-void sum_columns(const RowSums& sums, const FrequencyRamp& ramp, int column, Isa isa, Buffer<float>& re,
-                 Buffer<float>& im) {
+void sum_columns(const RowSums& sums, int width, const FrequencyRamp& ramp, int column, Isa isa,
+                 Buffer<float>& re, Buffer<float>& im) {
     const BoxTerms terms = sums.terms();
     if (!sums.tabulated) {
         OBSCURA_DISPATCH(isa, box_panel, ramp, column, terms, re.data(), im.data());
         return;
     }
-    Buffer<float> table_re(std::size_t{16} * static_cast<std::size_t>(terms.count)),
-        table_im(table_re.size());
-    OBSCURA_DISPATCH(isa, box_panel, ramp, column, terms, table_re.data(), table_im.data());
+    const int right = (width + 1) / 2;  // the first edge that is not left of the middle
+    Buffer<float> table_re(16 * (static_cast<std::size_t>(width) + 1)), table_im(table_re.size());
+    OBSCURA_DISPATCH(isa, box_panel, ramp, column, terms, table_re.data() + 16 * right,
+                     table_im.data() + 16 * right);
+    // The integral from 0 to -x is minus the conjugate of that from 0 to x.
+    for (int x = 0; x < right; ++x) {
+        for (int lane = 0; lane < 16; ++lane) {
+            table_re[static_cast<std::size_t>(16 * x + lane)] =
+                0.0f - table_re[static_cast<std::size_t>(16 * (width - x) + lane)];
+            table_im[static_cast<std::size_t>(16 * x + lane)] =
+                table_im[static_cast<std::size_t>(16 * (width - x) + lane)];
+        }
+    }
     OBSCURA_DISPATCH(isa, run_sums16, sums.runs.table(), table_re.data(), re.data());
     OBSCURA_DISPATCH(isa, run_sums16, sums.runs.table(), table_im.data(), im.data());
 }
@@ -183,7 +194,7 @@ void far_field_chirp(ImageView<const float> mask, const RowRuns& runs, const Fre
     parallel_for(static_cast<std::size_t>((grid.width + 15) / 16), exec, [&](std::size_t group) {
         Buffer<float> row_re(used), row_im(used), re(length), im(length);
         const int column = 16 * static_cast<int>(group), lanes = std::min(16, grid.width - column);
-        sum_columns(sums, ramp, column, exec.isa, row_re, row_im);
+        sum_columns(sums, mask.width, ramp, column, exec.isa, row_re, row_im);
         for (const Tile& tile : t.tiles) {
             std::fill(std::copy(row_re.begin(), row_re.end(), re.begin()), re.end(), 0.0f);
             std::fill(std::copy(row_im.begin(), row_im.end(), im.begin()), im.end(), 0.0f);

@@ -104,7 +104,8 @@ double chirp_ns(const MaskFacts& m, const FrequencyGrid& grid) {
     if (log2 == 0) return never;
     const double length = 1 << log2;
     const double tiles = std::ceil(grid.height / (length - m.height + 1));
-    const double sums = std::min(per_transform * m.runs, per_transform * m.width + 2 * per_run_end * m.runs);
+    const double sums =
+        std::min(per_transform * m.runs, per_transform * m.width / 2 + 2 * per_run_end * m.runs);
     constexpr double per_product = 2.5;  // of sixteen sequences with the chirp and its spectrum
     return per_table_entry * (length + tiles * m.height + grid.height) +
            groups * (sums + tiles * (2 * fft_ns(log2) + per_product * length));

@@ -24,8 +24,8 @@ NaturalTransform natural_transform(int width, int height, const NaturalGrid& gri
     t.grid = grid;
     t.width = width;
     t.height = height;
-    t.u_plan = fft_plan(grid.u.log2_period);
     t.v_plan = fft_plan(grid.v.log2_period);
+    t.u_plan = grid.u.log2_period == grid.v.log2_period ? t.v_plan : fft_plan(grid.u.log2_period);
     t.roots = unit_roots(grid.u.log2_period);
     fill_steps(t.roots, 0, width, t.step_re, t.step_im);
     fill_steps(t.roots, -(width / 2), width - width / 2, t.mirror_step_re, t.mirror_step_im);
