@@ -1,0 +1,37 @@
+#pragma once
+// From a system of edits to the disparity map that minimises its energy (thesis 4.5, 4.6).
+
+#include "core/isa.h"
+#include "stereo/disparity_system.h"
+#include "stereo/solve_report.h"
+
+namespace obscura {
+
+enum class SolverMethod {
+    cascade,    ///< the paper's: half-resolution pyramid, Jacobi sweeps per level, once from coarse to fine
+    vcycle,     ///< stationary V-cycles; for teaching: area anchors and matching sets stall it
+    fmg,        ///< full multigrid, then V-cycles
+    multigrid,  ///< conjugate gradients preconditioned by a V-cycle: the one to use
+};
+
+struct SolverParams {
+    SolverMethod method = SolverMethod::multigrid;
+    double tolerance_max_px = 0.05;  ///< stop when both error estimates are below; multigrid, fmg, vcycle
+    double tolerance_rms_px = 0.02;
+    int max_iterations = 60;
+    int sweeps = 10;            ///< cascade: Jacobi sweeps per level
+    bool printed_sign = false;  ///< cascade: the upsampling formula with the sign as printed
+    bool half_storage = false;  ///< 16-bit floats where vectors are stored; arithmetic stays 32-bit
+};
+
+struct Solution {
+    DisparityMap disparity;
+    SolveReport report;
+};
+
+/// Minimises the system's energy. `initial`: where to start from (last frame's map, or the one before an
+/// edit); empty: system.start. The same bits for any exec.
+Solution solve(const DisparitySystem& system, const SolverParams& params, const Exec& exec,
+               const DisparityMap& initial = {});
+
+}  // namespace obscura
