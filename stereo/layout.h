@@ -1,6 +1,7 @@
 #pragma once
 // Two pictures into one, for eyes and screens.
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -29,8 +30,17 @@ std::optional<StereoLayout> parse_layout(std::string_view text);
 std::string_view layout_name(StereoLayout layout);
 std::vector<std::string_view> layout_names();
 
+/// Dubois' matrix for red-cyan: red, green and blue of the anaglyph from red, green, blue of the left and of
+/// the right picture, all in linear light. Rows sum to 1.
+inline constexpr std::array<std::array<double, 6>, 3> dubois_matrix{{
+    {0.45610004, 0.50048381, 0.17638087, -0.0434706, -0.08793882, -0.00155529},
+    {-0.04008216, -0.03782458, -0.01575895, 0.37847603, 0.73363998, -0.01845032},
+    {-0.01521607, -0.02059714, -0.00546856, -0.07215268, -0.11296065, 1.2263951},
+}};
+
 /// Display-referred pictures of the same size, linear light, each channel in [0, 1] (tone mapped, before the
-/// sRGB curve); the result likewise. Not for `separate`.
+/// sRGB curve); the result likewise. Half layouts of an odd side give the left eye the larger half. CHECKs
+/// that the layout is one picture: not `separate`.
 Image<Vec3f> lay_out(const Image<Vec3f>& left, const Image<Vec3f>& right, StereoLayout layout);
 
 }  // namespace obscura

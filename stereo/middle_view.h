@@ -37,4 +37,8 @@ struct MiddleView {
 /// block, the upper left of four): values are sampled, never averaged, so borders of objects stay sharp.
 MiddleView reduced(const MiddleView& view, int reduction);
 
+/// The column (or row) of a full-resolution map, `full_size` wide, whose value stands at `index` of the
+/// reduced one: its centre is index * reduction + (reduction - 1) / 2, but in a last, narrower block.
+int sampled_pixel(int index, int reduction, int full_size);
+
 }  // namespace obscura
