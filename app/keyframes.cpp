@@ -40,8 +40,9 @@ SceneValue from_components(const KeySpec& key, const std::vector<double>& v, con
         const double hi = key.range.open_hi ? std::nextafter(key.range.hi, key.range.lo) : key.range.hi;
         return std::clamp(x, lo, hi);
     };
-    SceneValue result = v.size() == 1 ? value_of(clamped(v[0]))
-                                      : value_of(Vec3d{clamped(v[0]), clamped(v[1]), clamped(v[2])});
+    SceneValue result = v.size() == 1   ? value_of(clamped(v[0]))
+                        : v.size() == 2 ? value_of(Vec2d{clamped(v[0]), clamped(v[1])})
+                                        : value_of(Vec3d{clamped(v[0]), clamped(v[1]), clamped(v[2])});
     result.place = like.place;
     return result;
 }
@@ -75,6 +76,17 @@ const TableSpec& keyframe_spec(const char* list) {
     }
     CHECK(false, list);
     return frames_table();
+}
+
+/// `element` of a list with the keyframes of its id.
+SceneTable animated_one(const SceneDocument& document, const SceneTable& element, const char* list,
+                        double frame) {
+    SceneTable result = element;
+    const SceneTable& frames = subtable(document.root, "frames");
+    std::vector<const SceneTable*> keyframes = subtables(frames, list);
+    std::erase_if(keyframes, [&](const SceneTable* k) { return text(*k, "id") != text(element, "id"); });
+    animate(result, keyframes, keyframe_spec(list), frame, interpolation_of(frames));
+    return result;
 }
 
 /// Slope at keyframe i.
@@ -126,13 +138,19 @@ SceneTable optics_at(const SceneDocument& document, double frame) {
     return optics;
 }
 
-SceneTable light_at(const SceneDocument& document, const SceneTable& light, double frame) {
-    SceneTable result = light;
+SceneTable stereo_at(const SceneDocument& document, double frame) {
+    SceneTable stereo = subtable(document.root, "stereo");
     const SceneTable& frames = subtable(document.root, "frames");
-    std::vector<const SceneTable*> keyframes = subtables(frames, "light");
-    std::erase_if(keyframes, [&](const SceneTable* k) { return text(*k, "id") != text(light, "id"); });
-    animate(result, keyframes, keyframe_spec("light"), frame, interpolation_of(frames));
-    return result;
+    animate(stereo, subtables(frames, "stereo"), keyframe_spec("stereo"), frame, interpolation_of(frames));
+    return stereo;
+}
+
+SceneTable stereo_edit_at(const SceneDocument& document, const SceneTable& edit, double frame) {
+    return animated_one(document, edit, "stereo_edit", frame);
+}
+
+SceneTable light_at(const SceneDocument& document, const SceneTable& light, double frame) {
+    return animated_one(document, light, "light", frame);
 }
 
 std::vector<double> evaluate(const Track& track, double frame, Interpolation interpolation) {

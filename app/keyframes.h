@@ -29,6 +29,10 @@ FrameRange scene_frames(const SceneDocument& document);
 SceneTable camera_at(const SceneDocument& document, double frame);
 /// The same for [optics], which must be there.
 SceneTable optics_at(const SceneDocument& document, double frame);
+/// The same for [stereo], which must be there.
+SceneTable stereo_at(const SceneDocument& document, double frame);
+/// The same for one of its edits.
+SceneTable stereo_edit_at(const SceneDocument& document, const SceneTable& edit, double frame);
 /// The same for one of the document's lights.
 SceneTable light_at(const SceneDocument& document, const SceneTable& light, double frame);
 

@@ -72,12 +72,16 @@ const char* type_name(KeyType type) {
             return "text";
         case KeyType::size2:
             return "2 integers";
+        case KeyType::vec2:
+            return "2 numbers";
         case KeyType::vec3:
             return "3 numbers";
         case KeyType::vec3_or_number:
             return "3 numbers, or 1";
         case KeyType::date_time:
             return "date and time";
+        case KeyType::name_list:
+            return "list of names";
         case KeyType::name_map:
             return "table of names";
         case KeyType::table:

@@ -298,12 +298,18 @@ const TableSpec& frames_table() {
     static const TableSpec optics =
         keyframe_table("[[frames.optics]]", "What the lens is at a frame; keys as in [optics].",
                        {frame_key()}, optics_table());
+    static const TableSpec stereo =
+        keyframe_table("[[frames.stereo]]", "What the eyes are at a frame; keys as in [stereo].",
+                       {frame_key()}, stereo_table());
+    static const TableSpec stereo_edit =
+        keyframe_table("[[frames.stereo_edit]]", "What an edit is at a frame; keys as in [[stereo.edit]].",
+                       {frame_key(), name_key("id", "The edit.").need()}, stereo_edit_table());
     static const TableSpec spec{
         "[frames]",
-        "Which frames there are, and keyframes of camera, lights and optics. Each key is interpolated by "
-        "itself over "
-        "the "
-        "keyframes that set it and keeps its first and last value outside them. Angles are plain numbers: go "
+        "Which frames there are, and keyframes of camera, lights, optics and stereo. Each key is "
+        "interpolated "
+        "by itself over the keyframes that set it and keeps its first and last value outside them. Angles "
+        "are plain numbers: go "
         "from 350 "
         "to 370 to pass north.",
         {
@@ -317,6 +323,8 @@ const TableSpec& frames_table() {
             table_list_key("camera", camera),
             table_list_key("light", light),
             table_list_key("optics", optics),
+            table_list_key("stereo", stereo),
+            table_list_key("stereo_edit", stereo_edit),
         },
         "",
         {}};
@@ -341,6 +349,7 @@ const TableSpec& scene_schema_root() {
             table_key("sky", sky_table()),
             table_key("render", render_table()),
             table_key("optics", optics_table()).only_if_given(),
+            table_key("stereo", stereo_table()).only_if_given(),
             table_list_key("output", output_table()),
             table_key("frames", frames_table()),
             table_key("limits", limits_table()),

@@ -12,6 +12,8 @@ const TableSpec& light_table();
 const TableSpec& shadow_table();
 KeySpec shadow_cache_key();  ///< also stands in [shadow] itself
 const TableSpec& optics_table();
+const TableSpec& stereo_table();
+const TableSpec& stereo_edit_table();
 const TableSpec& frames_table();
 
 }  // namespace obscura

@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <map>
 
+#include "app/keyframe_rules.h"
 #include "app/keyframes.h"
 #include "app/scene_keys.h"
 #include "app/scene_rules_optics.h"
 #include "app/scene_rules_shadow.h"
+#include "app/scene_rules_stereo.h"
 #include "app/scene_shapes.h"
 #include "app/scene_validate.h"
 #include "core/error.h"
@@ -160,28 +162,6 @@ void check_outputs(const SceneTable& root, int frames, const Sources& sources) {
     }
 }
 
-/// Keyframes of one target: every key must be one that the target has, frames must rise.
-void check_keyframes(const std::vector<const SceneTable*>& keyframes, const SceneTable& target,
-                     const std::string& what, const std::vector<KeySpec>& variant_keys,
-                     const Sources& sources) {
-    double last = -1;
-    for (const SceneTable* keyframe : keyframes) {
-        const double frame = number(*keyframe, "frame");
-        if (frame <= last) {
-            fail_at(place_of(*keyframe, "frame"), sources,
-                    fmt::format("keyframes of {} must rise: {} follows {}", what, frame, last));
-        }
-        last = frame;
-        for (const SceneEntry& entry : keyframe->entries) {
-            const bool own = std::any_of(variant_keys.begin(), variant_keys.end(),
-                                         [&](const KeySpec& k) { return k.name == entry.key && k.animated; });
-            if (entry.key != "frame" && entry.key != "id" && !target.has(entry.key) && !own) {
-                fail_at(entry.place, sources, fmt::format("{} has no '{}'", what, entry.key));
-            }
-        }
-    }
-}
-
 /// Keyframes of the lens, and the lens at every frame.
 void check_optics_frames(const SceneDocument& document, const FrameRange& range) {
     const Sources& sources = document.sources;
@@ -250,7 +230,7 @@ void apply_rules(SceneDocument& document) {
     check_size(document);
     check_optics(root, sources);
 
-    unique_ids(root, "mesh", sources);
+    const std::vector<std::string> mesh_ids = unique_ids(root, "mesh", sources);
     const std::vector<std::string> materials =
         root.has("material") ? keys_of(subtable(root, "material")) : std::vector<std::string>{};
     for (const SceneTable* mesh : subtables(root, "mesh"))
@@ -260,6 +240,7 @@ void apply_rules(SceneDocument& document) {
     const std::vector<std::string> light_ids = unique_ids(root, "light", sources);
     merge_shadows(root, light_ids, sources);
     check_frames(document, light_ids);
+    check_stereo(document, mesh_ids, materials);
 }
 
 }  // namespace obscura

@@ -67,6 +67,9 @@ KeySpec choice_key(std::string name, std::vector<std::string> choices, std::stri
 KeySpec size_key(std::string name, std::string doc) {
     return key(std::move(name), KeyType::size2, std::move(doc));
 }
+KeySpec vec2_key(std::string name, std::string doc) {
+    return key(std::move(name), KeyType::vec2, std::move(doc));
+}
 KeySpec vec3_key(std::string name, std::string doc) {
     return key(std::move(name), KeyType::vec3, std::move(doc));
 }
@@ -75,6 +78,9 @@ KeySpec vec3_or_number_key(std::string name, std::string doc) {
 }
 KeySpec date_time_key(std::string name, std::string doc) {
     return key(std::move(name), KeyType::date_time, std::move(doc));
+}
+KeySpec name_list_key(std::string name, std::string doc) {
+    return key(std::move(name), KeyType::name_list, std::move(doc));
 }
 KeySpec name_map_key(std::string name, std::string doc) {
     return key(std::move(name), KeyType::name_map, std::move(doc));
@@ -91,10 +97,17 @@ KeySpec table_map_key(std::string name, const TableSpec& table) {
 
 std::string unit_of(std::string_view name) {
     static const std::pair<const char*, const char*> units[] = {
-        {"_w_m2_sr", "W/(m² sr)"}, {"_w_m2", "W/m²"},     {"_w_sr", "W/sr"},
-        {"_mib", "MiB"},           {"_deg", "degrees"},   {"_mm", "mm"},
-        {"_px", "pixels"},         {"_texels", "texels"}, {"_ev", "EV"},
+        {"_w_m2_sr", "W/(m² sr)"},
+        {"_w_m2", "W/m²"},
+        {"_w_sr", "W/sr"},
+        {"_mib", "MiB"},
+        {"_deg", "degrees"},
+        {"_mm", "mm"},
+        {"_px", "pixels"},
+        {"_texels", "texels"},
+        {"_ev", "EV"},
         {"_m", "metres"},
+        {"_percent", "% of the width"},
     };
     for (const auto& [suffix, unit] : units) {
         if (name.ends_with(suffix)) return unit;

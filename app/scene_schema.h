@@ -21,12 +21,14 @@ enum class KeyType {
     name,            ///< text of letters, digits, '_' and '-': ids and references
     choice,          ///< text out of a list
     size2,           ///< two integers
+    vec2,            ///< two numbers
     vec3,            ///< three numbers
     vec3_or_number,  ///< three numbers, or one that stands for all three
     date_time,
     table,       ///< [key]
     table_list,  ///< [[key]]
     table_map,   ///< [key.NAME]
+    name_list,   ///< texts, or one that stands alone
     name_map,    ///< NAME = "name" pairs, whose keys are any text
 };
 
@@ -98,9 +100,11 @@ KeySpec file_key(std::string name, std::string doc);
 KeySpec name_key(std::string name, std::string doc);
 KeySpec choice_key(std::string name, std::vector<std::string> choices, std::string doc);
 KeySpec size_key(std::string name, std::string doc);
+KeySpec vec2_key(std::string name, std::string doc);
 KeySpec vec3_key(std::string name, std::string doc);
 KeySpec vec3_or_number_key(std::string name, std::string doc);
 KeySpec date_time_key(std::string name, std::string doc);
+KeySpec name_list_key(std::string name, std::string doc);
 KeySpec name_map_key(std::string name, std::string doc);
 KeySpec table_key(std::string name, const TableSpec& table);
 KeySpec table_list_key(std::string name, const TableSpec& table);

@@ -29,6 +29,8 @@ std::string type_text(const KeySpec& key) {
             return "a string";
         case KeyType::size2:
             return "two integers [width, height]";
+        case KeyType::vec2:
+            return "two numbers";
         case KeyType::vec3:
             return "three numbers";
         case KeyType::vec3_or_number:
@@ -41,6 +43,8 @@ std::string type_text(const KeySpec& key) {
             return fmt::format("a list of tables [[{}]]", key.name);
         case KeyType::table_map:
             return fmt::format("tables [{}.NAME]", key.name);
+        case KeyType::name_list:
+            return "a list of names";
         case KeyType::name_map:
             return fmt::format("a table [{}] of names", key.name);
     }
@@ -118,7 +122,8 @@ SceneValue checked_list(const KeySpec& key, const SceneValue& value, const Sourc
         all.place = value.place;
         return all;
     }
-    if (list == nullptr || list->size() != (integers ? 2u : 3u)) wrong_type(key, value, sources);
+    const bool two = integers || key.type == KeyType::vec2;
+    if (list == nullptr || list->size() != (two ? 2u : 3u)) wrong_type(key, value, sources);
     SceneList checked;
     for (const SceneValue& item : *list) {
         SceneValue& number = checked.emplace_back();
@@ -222,6 +227,31 @@ SceneValue checked_name_map(const KeySpec& key, const SceneValue& value, const S
     return value;
 }
 
+/// Names that the rules look up: any text. One that stands alone is a list of one.
+SceneValue checked_name_list(const KeySpec& key, const SceneValue& value, const Sources& sources) {
+    constexpr std::size_t longest = 256;
+    SceneList names;
+    if (std::holds_alternative<std::string>(value.data)) {
+        names.push_back(value);
+    } else if (const auto* list = std::get_if<SceneList>(&value.data)) {
+        names = *list;
+    } else {
+        wrong_type(key, value, sources);
+    }
+    if (names.empty()) fail_at(value.place, sources, fmt::format("'{}' must name something", key.name));
+    for (const SceneValue& item : names) {
+        const auto* name = std::get_if<std::string>(&item.data);
+        if (name == nullptr) {
+            fail_at(item.place, sources, fmt::format("'{}' holds names, not {}", key.name, found_text(item)));
+        }
+        if (name->empty() || name->size() > longest || name->find('\0') != std::string::npos) {
+            fail_at(item.place, sources,
+                    fmt::format("a name in '{}' must be 1 to {} characters", key.name, longest));
+        }
+    }
+    return {std::move(names), value.place};
+}
+
 SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sources& sources) {
     switch (key.type) {
         case KeyType::boolean:
@@ -240,6 +270,7 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::choice:
             return checked_text(key, value, sources);
         case KeyType::size2:
+        case KeyType::vec2:
         case KeyType::vec3:
         case KeyType::vec3_or_number:
             return checked_list(key, value, sources);
@@ -250,6 +281,8 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
             return checked_tables(key, value, sources);
         case KeyType::table_map:
             return checked_map(key, value, sources);
+        case KeyType::name_list:
+            return checked_name_list(key, value, sources);
         case KeyType::name_map:
             return checked_name_map(key, value, sources);
     }

@@ -70,6 +70,9 @@ SceneValue value_of(const char* v) {
 SceneValue value_of(Size2 v) {
     return {SceneList{value_of(std::int64_t{v.width}), value_of(std::int64_t{v.height})}, {}};
 }
+SceneValue value_of(Vec2d v) {
+    return {SceneList{value_of(v.x), value_of(v.y)}, {}};
+}
 SceneValue value_of(Vec3d v) {
     return {SceneList{value_of(v.x), value_of(v.y), value_of(v.z)}, {}};
 }
@@ -95,6 +98,12 @@ const std::string& text(const SceneTable& table, std::string_view key) {
     return get_as<std::string>(table, key);
 }
 
+Vec2d vec2(const SceneTable& table, std::string_view key) {
+    const auto& list = get_as<SceneList>(table, key);
+    CHECK(list.size() == 2, fmt::format("key '{}' has {} numbers", key, list.size()));
+    return {as_number(list[0]), as_number(list[1])};
+}
+
 Vec3d vec3(const SceneTable& table, std::string_view key) {
     const auto& list = get_as<SceneList>(table, key);
     CHECK(list.size() == 3, fmt::format("key '{}' has {} numbers", key, list.size()));
@@ -113,6 +122,14 @@ DateTime date_time(const SceneTable& table, std::string_view key) {
 
 const SceneTable& subtable(const SceneTable& table, std::string_view key) {
     return get_as<SceneTable>(table, key);
+}
+
+std::vector<std::string> text_list(const SceneTable& table, std::string_view key) {
+    std::vector<std::string> all;
+    if (!table.has(key)) return all;
+    for (const SceneValue& item : get_as<SceneList>(table, key))
+        all.push_back(std::get<std::string>(item.data));
+    return all;
 }
 
 std::vector<const SceneTable*> subtables(const SceneTable& table, std::string_view key) {

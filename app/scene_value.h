@@ -64,6 +64,7 @@ SceneValue value_of(std::int64_t v);
 SceneValue value_of(double v);
 SceneValue value_of(const char* v);
 SceneValue value_of(Size2 v);
+SceneValue value_of(Vec2d v);
 SceneValue value_of(Vec3d v);
 SceneValue value_of(Vec3f v);  ///< through the shortest decimal that gives the same float: 0.8f is 0.8
 
@@ -72,10 +73,13 @@ bool boolean(const SceneTable& table, std::string_view key);
 std::int64_t integer(const SceneTable& table, std::string_view key);
 double number(const SceneTable& table, std::string_view key);
 const std::string& text(const SceneTable& table, std::string_view key);
+Vec2d vec2(const SceneTable& table, std::string_view key);
 Vec3d vec3(const SceneTable& table, std::string_view key);
 Size2 size2(const SceneTable& table, std::string_view key);
 DateTime date_time(const SceneTable& table, std::string_view key);
 const SceneTable& subtable(const SceneTable& table, std::string_view key);
+/// The names of a list; empty when the key is absent.
+std::vector<std::string> text_list(const SceneTable& table, std::string_view key);
 /// The tables of a list; empty when the key is absent.
 std::vector<const SceneTable*> subtables(const SceneTable& table, std::string_view key);
 Place place_of(const SceneTable& table, std::string_view key);

@@ -2,8 +2,12 @@
 // What [stereo] and [[stereo.edit]] of a scene come to at one frame: everything that a pair is made from
 // beside the scene itself.
 
+#include <string>
 #include <vector>
 
+#include "app/file_access.h"
+#include "app/scene_file.h"
+#include "core/scene.h"
 #include "stereo/edit.h"
 #include "stereo/moved_mesh.h"
 #include "stereo/solver.h"
@@ -22,6 +26,17 @@ struct StereoSettings {
     SolverParams solver;
     ReprojectParams reproject;
     bool middle_picture = false;  ///< also render what the middle camera sees, margins included: for warping
+    std::vector<std::string> notes;  ///< what one would want to know: edits that do nothing in this frame
 };
+
+/// What `document` says of two eyes at `frame`; defaults where it has no [stereo]. `scene` was built from it
+/// and set to that frame. Where scene.render is of another size than the document says, pixels that keys
+/// count are scaled along. Reads masks. Throws InputError: objects and material slots that the scene does not
+/// have, masks that cannot be read; LimitError for large ones.
+StereoSettings stereo_settings(const SceneDocument& document, const Scene& scene, double frame,
+                               const FileAccess& access);
+
+/// What `check` tells of them: lines of text.
+std::string stereo_text(const StereoSettings& settings, const Scene& scene);
 
 }  // namespace obscura

@@ -1,0 +1,237 @@
+// Keys of the two eyes and of the edits to what they see.
+
+#include "app/scene_keys.h"
+#include "stereo/edit.h"
+#include "stereo/moved_mesh.h"
+#include "stereo/solver.h"
+#include "stereo/stereo_rig.h"
+
+namespace obscura {
+namespace {
+
+constexpr Range anywhere{-1e9, 1e9};
+constexpr Range weight_range{0, 1e6};
+constexpr Range positive_weight{0, 1e6, true};
+
+std::vector<KeySpec> rig_keys() {
+    static const StereoRig d;
+    return {
+        number_key("interaxial_m", "Between the two eyes' cameras.")
+            .in({0, 1e6, true})
+            .or_else(d.interaxial_m)
+            .animate(),
+        number_key("zero_parallax_m",
+                   "Distance along the view axis of what appears on the screen itself; when not given, that "
+                   "of the camera's look_at_m.")
+            .in({0, 1e9, true})
+            .animate(),
+        number_key("screen_width_m", "Of the screen that the picture fills; for vergence in degrees.")
+            .in({0, 1000, true})
+            .or_else(d.screen_width_m),
+        number_key("viewing_distance_m", "From the viewer to the screen.")
+            .in({0, 1000, true})
+            .or_else(d.viewing_distance_m),
+        number_key("eye_separation_m", "Of the viewer.").in({0, 1, true}).or_else(d.eye_separation_m),
+        integer_key("margin_px",
+                    "Columns by which the middle view is wider than the picture, on either side; \"auto\": "
+                    "as many as the largest disparity needs.")
+            .in({0, 8192})
+            .or_word("auto")
+            .or_else("auto"),
+    };
+}
+
+std::vector<KeySpec> solver_keys() {
+    static const SolverParams d;
+    return {
+        integer_key("map_scale", "The disparity map is solved at 1 : map_scale of the picture.")
+            .one_of({1, 2, 4, 8})
+            .or_else(std::int64_t{1}),
+        choice_key("solver", {"multigrid", "fmg", "vcycle", "cascade"},
+                   "multigrid: conjugate gradients with a V-cycle. fmg: full multigrid, then V-cycles. "
+                   "vcycle: V-cycles alone. cascade: the paper's single pass from coarse to fine, inexact.")
+            .or_else("multigrid"),
+        number_key("tolerance_px",
+                   "Largest error of the map at which solving stops; its root mean square has to be 0.4 of "
+                   "that. Not of \"cascade\".")
+            .in({0, 100, true})
+            .or_else(d.tolerance_max_px),
+        integer_key("max_iterations", "Where solving gives up; a note says so.")
+            .in({1, 100000})
+            .or_else(std::int64_t{d.max_iterations}),
+        integer_key("cascade_sweeps", "Jacobi sweeps per level of \"cascade\".")
+            .in({0, 100000})
+            .or_else(std::int64_t{d.sweeps}),
+        boolean_key("half_storage", "Keeps the solver's vectors as 16-bit floats.").or_else(d.half_storage),
+        number_key("tessellation_px", "Triangles are split until their disparity is this near to the map's.")
+            .in({0.001, 100})
+            .or_else(ReprojectParams{}.tolerance_px),
+    };
+}
+
+std::vector<KeySpec> energy_keys() {
+    static const EditParams d;
+    return {
+        number_key("gradient_weight", "Of every wanted difference between neighbours.")
+            .in(positive_weight)
+            .or_else(d.gradient_weight),
+        number_key("anchor_weight", "Of anchors, times their own.").in(weight_range).or_else(d.anchor_weight),
+        number_key("match_weight", "Of matched points, times their own.")
+            .in(weight_range)
+            .or_else(d.match_weight),
+        number_key("regularization", "Pull of every pixel to its unedited disparity.")
+            .in({0, 1e6, true})
+            .or_else(d.epsilon),
+    };
+}
+
+std::vector<KeySpec> conflict_keys() {
+    static const EditParams d;
+    const auto limit = [](const char* name, const char* doc, double most) {
+        return number_key(name, doc).in({0, most}).animate();
+    };
+    return {
+        limit("comfort_near_percent", "Most disparity in front of the screen; no limit when not given.", 100),
+        limit("comfort_far_percent", "Most disparity behind the screen.", 100),
+        limit("comfort_near_deg", "Instead of comfort_near_percent: as vergence.", 90),
+        limit("comfort_far_deg", "Instead of comfort_far_percent: as vergence.", 90),
+        number_key("comfort_weight", "Anchors of pixels outside of these limits; 0: leave them.")
+            .in(weight_range)
+            .or_else(d.comfort_weight),
+        number_key("window_weight",
+                   "Anchors of what the picture's sides cut in front of the screen; 0: leave it.")
+            .in(weight_range)
+            .or_else(d.window_weight),
+        boolean_key("reset_inversions",
+                    "Where an edit would turn near and far around, the original difference is wanted.")
+            .or_else(d.reset_inversions),
+    };
+}
+
+KeySpec target_key(const char* name, const char* doc) {
+    return name_list_key(name, doc);
+}
+
+std::vector<KeySpec> target_keys() {
+    return {
+        target_key("objects",
+                   "Meshes by id, or single ones of their objects: \"ID/OBJECT\" of files with several, "
+                   "\"ID#0\" of instances."),
+        target_key("materials",
+                   "Materials by name, or \"ID/SLOT\" for what a shape or a file brings along. Objects and "
+                   "materials together: pixels of any of them."),
+    };
+}
+
+/// An offset in either unit.
+std::vector<KeySpec> offset_keys(const char* doc) {
+    return {
+        number_key("offset_px", doc).in({-1e5, 1e5}).animate(),
+        number_key("offset_percent", "Instead of offset_px: so that it fits pictures of any size.")
+            .in({-100, 100})
+            .animate(),
+    };
+}
+
+std::vector<KeySpec> operator+(std::vector<KeySpec> a, std::vector<KeySpec> b) {
+    for (KeySpec& key : b)
+        a.push_back(std::move(key));
+    return a;
+}
+
+std::vector<VariantSpec> edit_variants() {
+    std::vector<KeySpec> roundness{
+        number_key("roundness",
+                   "Scales disparity about the target's centre: 0 flattens, 1 changes nothing, 2 doubles.")
+            .in({0, 100})
+            .need()
+            .animate()};
+    std::vector<KeySpec> second{
+        target_key("second_objects", "The other side of the border, as objects."),
+        target_key("second_materials", "The same, as materials."),
+        file_key("mask",
+                 "Instead of objects and materials: a picture, stretched over the frame; white keeps, black "
+                 "does not. PNG, PBM or PGM without colours, inside the scene's folder."),
+    };
+    const auto point = [](const char* px, const char* px_doc, const char* m, const char* m_doc) {
+        return std::vector<KeySpec>{vec2_key(px, px_doc).in({-1e6, 1e6}).animate(),
+                                    vec3_key(m, m_doc).in(anywhere).animate()};
+    };
+    return {
+        {"roundness", "More or less depth within the target.", target_keys() + std::move(roundness)},
+        {"anchor", "Holds the target at its own disparity (with its roundness), or at an offset from it.",
+         target_keys() + offset_keys("Towards the viewer when positive; 0 when neither is given.")},
+        {"interface", "Keeps the original depth between two targets where they meet, or under a mask.",
+         target_keys() + std::move(second)},
+        {"match", "What surrounds the destination takes the disparity of the source.",
+         point("source_px", "Point of the picture whose disparity is taken: right, down from its corner.",
+               "source_m", "Instead of source_px: a point of the scene.") +
+             point("destination_px", "Point that gets it.", "destination_m",
+                   "Instead of destination_px: a point of the scene.") +
+             offset_keys("Of the destination from the source, towards the viewer.") +
+             std::vector<KeySpec>{
+                 number_key("radius_px", "Of the disc that moves along; 0: the destination's whole object.")
+                     .in({0, 1e5})
+                     .or_else(0.0)}},
+    };
+}
+
+std::vector<KeySpec> fade_keys() {
+    return {
+        vec2_key("fade_angle_deg",
+                 "[full, none]: the weight fades out between these angles of the view from fade_direction.")
+            .in({0, 180}),
+        vec3_key("fade_direction", "Direction of the view for which fade_angle_deg is 0.").in(anywhere),
+        vec2_key("fade_distance_m",
+                 "[full, none]: the weight fades out between these distances of the camera from "
+                 "fade_position_m.")
+            .in({0, 1e9}),
+        vec3_key("fade_position_m", "Where fade_distance_m is measured from.").in(anywhere),
+    };
+}
+
+}  // namespace
+
+const TableSpec& stereo_edit_table() {
+    static const TableSpec spec = [] {
+        TableSpec s{"[[stereo.edit]]",
+                    "A wish for the disparity of a part of the picture. All of them are weighed against one "
+                    "another, and against the depths that the scene has.",
+                    {},
+                    "type",
+                    edit_variants()};
+        std::vector<std::string> types;
+        for (const VariantSpec& variant : s.variants)
+            types.push_back(variant.name);
+        s.keys = {
+            name_key("id", "Name, unique among edits.").need(),
+            choice_key("type", types, "Kind of edit.").need(),
+            number_key("weight",
+                       "How strongly it is wanted; of roundness and interface the share that is applied, at "
+                       "most 1. 0 turns it off.")
+                .in(weight_range)
+                .or_else(1.0)
+                .animate(),
+        };
+        for (KeySpec& key : fade_keys())
+            s.keys.push_back(std::move(key));
+        return s;
+    }();
+    return spec;
+}
+
+const TableSpec& stereo_table() {
+    static const TableSpec spec = [] {
+        TableSpec s{"[stereo]",
+                    "Two eyes in place of the camera, and edits of the disparity between them: x of a point "
+                    "in the left picture minus x in the right one, positive in front of the screen.",
+                    rig_keys() + solver_keys() + energy_keys() + conflict_keys(),
+                    "",
+                    {}};
+        s.keys.push_back(table_list_key("edit", stereo_edit_table()));
+        return s;
+    }();
+    return spec;
+}
+
+}  // namespace obscura
