@@ -22,7 +22,7 @@ struct Work {
     std::int64_t most_bytes;  ///< for all shadows together
     const Exec& exec;
     FrameCache& cache;
-    TileScene& tiles;
+    std::span<TileScene> pictures;
     FrameStats& stats;
     const std::atomic<bool>* cancel;
 };
@@ -111,7 +111,7 @@ bool build_map(const Work& work, LightShadow& shadow) {
 
 /// Settles what each light's shadow shall be; those that an earlier frame made are marked kept.
 void plan_shadows(const Work& work) {
-    const auto found = auto_resolutions(work.scene, work.tiles, work.exec);
+    const auto found = auto_resolutions(work.scene, work.pictures, work.exec);
     std::vector<LightShadow>& shadows = work.cache.shadows;
     std::size_t used = 0;
     for (std::size_t i = 0; i < work.scene.lights.size(); ++i) {
@@ -160,11 +160,11 @@ std::vector<std::optional<std::vector<NeededNodes>>> needed_of_frame(const Work&
         const auto views = fitted_shadow_views(s.light, s.casters, s.light.shadow.resolution);
         lights.push_back(pcf_light(s.light, views, work.scene.camera.eye));
         if (s.light.shadow.filter == ShadowFilter::hierarchical) {
-            filter_hierarchically(lights.back(), work.tiles.rays);
+            filter_hierarchically(lights.back(), work.pictures[0].rays);
         }
     }
     if (lights.empty()) return {};
-    return needed_texels(work.tiles, lights, work.exec);
+    return needed_texels(work.pictures, lights, work.exec);
 }
 
 /// Makes one shadow that is not kept. `next_needed`: the next entry of `needed` that belongs to a shadow.
@@ -205,9 +205,9 @@ bool build_shadows(const Work& work) {
     return true;
 }
 
-void give_to_tiles(const Work& work) {
+void give_to_tiles(const Work& work, TileScene& tiles) {
     std::size_t next = 0;
-    for (TileLight& light : work.tiles.lights) {
+    for (TileLight& light : tiles.lights) {
         if (!casts_shadows(work.scene.lights[light.scene_light])) continue;
         const LightShadow& shadow = work.cache.shadows[next++];
         if (shadow.light.shadow.method == ShadowMethod::map) {
@@ -216,7 +216,7 @@ void give_to_tiles(const Work& work) {
         }
         light.pcf = pcf_light(shadow.light, std::span(shadow.trees), work.scene.camera.eye);
         if (shadow.light.shadow.filter == ShadowFilter::hierarchical) {
-            filter_hierarchically(*light.pcf, work.tiles.rays);
+            filter_hierarchically(*light.pcf, tiles.rays);
         }
     }
 }
@@ -227,7 +227,8 @@ bool casts_shadows(const Light& light) {
     return sheds_light(light) && light.shadow.method != ShadowMethod::none;
 }
 
-std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene, const TileScene& tiles,
+std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
+                                                             std::span<const TileScene> pictures,
                                                              const Exec& exec) {
     std::vector<ResolutionQuery> queries;
     for (const Light& light : scene.lights) {
@@ -235,24 +236,33 @@ std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
     }
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     if (queries.empty()) return found;
-    const auto answers = find_resolutions(tiles, scene.camera.eye, queries, exec);
+    const auto answers = find_resolutions(pictures, scene.camera.eye, queries, exec);
     for (std::size_t i = 0; i < queries.size(); ++i)
         found[static_cast<std::size_t>(queries[i].light - scene.lights.data())] = answers[i];
     return found;
 }
 
 bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
-                     TileScene& tiles, FrameStats& stats, const std::atomic<bool>* cancel) {
+                     std::span<TileScene> pictures, FrameStats& stats, const std::atomic<bool>* cancel) {
     // A scene without geometry has nothing to cast or to receive.
     if (cache.bounds.empty()) return true;
     const Stopwatch watch;
-    const Work work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, tiles, stats, cancel};
+    const Work work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats,
+                    cancel};
     plan_shadows(work);
     stats.resolution_s = watch.seconds();
     if (!build_shadows(work)) return false;
-    give_to_tiles(work);
+    for (TileScene& tiles : pictures)
+        give_to_tiles(work, tiles);
     stats.shadow_s = watch.seconds();
     return true;
+}
+
+void forget_picture_shadows(FrameCache& cache) {
+    for (LightShadow& shadow : cache.shadows) {
+        const ShadowSettings& s = shadow.light.shadow;
+        if (s.method == ShadowMethod::compressed && s.scope == ShadowScope::frame) shadow.trees.clear();
+    }
 }
 
 }  // namespace obscura

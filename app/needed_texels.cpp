@@ -62,31 +62,46 @@ std::vector<std::uint64_t> join(std::vector<std::vector<std::vector<std::uint64_
     return words;
 }
 
+/// What tiles collected, tile by tile, and what is known of it.
+struct Collected {
+    std::vector<std::vector<std::vector<std::uint64_t>>> words;  ///< per tile of all pictures, per light
+    std::vector<std::int64_t> squares;                           ///< per light
+    std::vector<char> given_up;
+};
+
+void collect_picture(const TileScene& tiles, std::span<const PcfLight> lights, const Exec& exec,
+                     std::int64_t most_squares, Collected& all) {
+    // Rows of tiles one after the other, so that a light that wants too much is known before memory is gone.
+    const auto columns = static_cast<std::size_t>(tiles.bins->columns);
+    const std::size_t begin = all.words.size();
+    all.words.resize(begin + tiles.bins->tiles());
+    for (std::size_t first = 0; begin + first < all.words.size(); first += columns) {
+        parallel_for(columns, exec, [&](std::size_t i) {
+            all.words[begin + first + i] = collect_tile(tiles, first + i, lights, all.given_up, exec.isa);
+        });
+        for (std::size_t l = 0; l < lights.size(); ++l) {
+            for (std::size_t i = begin + first; i < begin + first + columns; ++i)
+                all.squares[l] += count_squares(all.words[i][l]);
+            if (all.squares[l] > most_squares) all.given_up[l] = 1;
+        }
+    }
+}
+
 }  // namespace
 
-std::vector<std::optional<std::vector<NeededNodes>>> needed_texels(const TileScene& tiles,
+std::vector<std::optional<std::vector<NeededNodes>>> needed_texels(std::span<const TileScene> pictures,
                                                                    std::span<const PcfLight> lights,
                                                                    const Exec& exec,
                                                                    std::int64_t most_squares) {
-    // Rows of tiles one after the other, so that a light that wants too much is known before memory is gone.
-    const auto columns = static_cast<std::size_t>(tiles.bins->columns);
-    std::vector<std::vector<std::vector<std::uint64_t>>> words(tiles.bins->tiles());
-    std::vector<std::int64_t> squares(lights.size(), 0);
-    std::vector<char> given_up(lights.size(), 0);
-    for (std::size_t first = 0; first < words.size(); first += columns) {
-        parallel_for(columns, exec, [&](std::size_t i) {
-            words[first + i] = collect_tile(tiles, first + i, lights, given_up, exec.isa);
-        });
-        for (std::size_t l = 0; l < lights.size(); ++l) {
-            for (std::size_t i = first; i < first + columns; ++i)
-                squares[l] += count_squares(words[i][l]);
-            if (squares[l] > most_squares) given_up[l] = 1;
-        }
-    }
+    Collected all;
+    all.squares.resize(lights.size());
+    all.given_up.resize(lights.size());
+    for (const TileScene& tiles : pictures)
+        collect_picture(tiles, lights, exec, most_squares, all);
     std::vector<std::optional<std::vector<NeededNodes>>> needed(lights.size());
     for (std::size_t l = 0; l < lights.size(); ++l) {
-        std::vector<std::uint64_t> of_light = join(words, l);
-        if (given_up[l] != 0) continue;
+        std::vector<std::uint64_t> of_light = join(all.words, l);
+        if (all.given_up[l] != 0) continue;
         needed[l] =
             needed_of_words(std::move(of_light), static_cast<std::size_t>(lights[l].views), block_level);
     }

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <mutex>
 
 #include "app/frame_shadows.h"
+#include "app/frame_tiles.h"
 #include "app/scene_build.h"
 #include "app/source_kernels.h"
 #include "app/stopwatch.h"
-#include "core/parallel.h"
 #include "raster/lighting.h"
 
 namespace obscura {
@@ -22,81 +21,6 @@ Region crop_of(const RenderSettings& render, const FrameOptions& options) {
         c.x0 >= 0 && c.y0 >= 0 && c.x0 + c.width <= render.width && c.y0 + c.height <= render.height,
         fmt::format("crop {},{} {}x{} of {}x{}", c.x0, c.y0, c.width, c.height, render.width, render.height));
     return c;
-}
-
-/// One channel: as large as the frame when wanted, else empty.
-template <class T>
-void set_channel(Image<T>& channel, bool wanted, const Frame& frame) {
-    channel = wanted ? Image<T>(frame.width, frame.height) : Image<T>();
-}
-
-void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
-    frame.x0 = crop.x0;
-    frame.y0 = crop.y0;
-    frame.width = crop.width;
-    frame.height = crop.height;
-    frame.radiance.reset(crop.width, crop.height);
-    set_channel(frame.depth_m, options.depth, frame);
-    set_channel(frame.normal, options.normal, frame);
-    set_channel(frame.albedo, options.albedo, frame);
-    set_channel(frame.object, options.object, frame);
-    set_channel(frame.shadow, options.shadow, frame);
-}
-
-/// Tells `progress` about once per half percent, one call at a time.
-class ProgressMeter {
-  public:
-    ProgressMeter(const std::function<void(double)>& progress, std::size_t tiles)
-        : progress_(progress), tiles_(tiles), step_(std::max<std::size_t>(tiles / 200, 1)) {}
-    void tile_done() {
-        if (!progress_) return;
-        const std::lock_guard lock(mutex_);
-        ++done_;
-        if (done_ % step_ == 0 || done_ == tiles_) {
-            progress_(static_cast<double>(done_) / static_cast<double>(tiles_));
-        }
-    }
-
-  private:
-    const std::function<void(double)>& progress_;
-    std::size_t tiles_, step_, done_ = 0;
-    std::mutex mutex_;
-};
-
-void render_tiles(const TileScene& scene, const FrameOptions& options, const Exec& exec, Frame& frame) {
-    const int column0 = frame.x0 / frame_tile_side, row0 = frame.y0 / frame_tile_side;
-    const int columns = (frame.x0 + frame.width - 1) / frame_tile_side - column0 + 1;
-    const int rows = (frame.y0 + frame.height - 1) / frame_tile_side - row0 + 1;
-    const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-    ProgressMeter meter(options.progress, tiles);
-    std::vector<std::int64_t> covered(tiles, 0);
-    const std::size_t lights = scene.lights.size();
-    std::vector<double> lookup_s(tiles * lights, 0.0);
-    std::atomic<bool> skipped = false;
-    parallel_for(tiles, exec, [&](std::size_t i) {
-        if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
-            skipped = true;
-            return;
-        }
-        TileWork work;  // not initialised: every stage writes what the next one reads
-        work.lookup_s = std::span(lookup_s).subspan(i * lights, lights);
-        const int column = column0 + static_cast<int>(i) % columns,
-                  row = row0 + static_cast<int>(i) / columns;
-        covered[i] = render_tile(scene, column, row, options, exec.isa, work, frame);
-        meter.tile_done();
-    });
-    frame.complete = !skipped;
-    for (const std::int64_t n : covered)
-        frame.stats.covered_samples += n;
-    std::size_t shadow = 0;
-    for (std::size_t l = 0; l < lights; ++l) {
-        if (!scene.lights[l].pcf) continue;
-        double& sum = frame.stats.lights[shadow++].lookup_s;
-        for (std::size_t i = 0; i < tiles; ++i)
-            sum += lookup_s[i * lights + l];
-    }
-    frame.stats.samples = static_cast<std::int64_t>(tiles) * frame_tile_side * frame_tile_side *
-                          static_cast<std::int64_t>(scene.pattern.size());
 }
 
 }  // namespace
@@ -112,21 +36,11 @@ void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, Fram
     CHECK(cache.surface.triangles.size() == scene.mesh.triangles.size(), "the mesh changed without forget()");
 }
 
-TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache) {
+TileScene tile_scene(const Scene& scene, int width, int height, int samples) {
     TileScene t;
-    const RenderSettings& render = scene.render;
-    t.view = camera_view(scene.camera, render.width, render.height);
-    t.rays = camera_rays(scene.camera, render.width, render.height);
-    t.pattern = sample_pattern(render.samples);
-    SetupParams params;
-    params.centre_samples_only = render.samples == 1;
-    setup_triangles(scene.mesh, t.view, params, exec, cache.camera_scratch.setup);
-    bin_records(cache.camera_scratch.setup, {0, 0, render.width, render.height}, frame_tile_side, exec,
-                cache.camera_scratch.bins);
-    t.setup = &cache.camera_scratch.setup;
-    t.bins = &cache.camera_scratch.bins;
-    t.mesh = &scene.mesh;
-    t.surface = surface_mesh(scene.mesh, cache.surface);
+    t.view = camera_view(scene.camera, width, height);
+    t.rays = camera_rays(scene.camera, width, height);
+    t.pattern = sample_pattern(samples);
     t.materials = shade_materials(scene.materials);
     t.textures = scene.textures;
     t.textured = !scene.mesh.uvs.empty() && std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -139,6 +53,25 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
         tile_light.scene_light = i;
         tile_light.shade = shade_light_of(light, scene.camera.eye);
     }
+    return t;
+}
+
+void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch, TileScene& tiles) {
+    SetupParams params;
+    params.centre_samples_only = tiles.pattern.size() == 1;
+    setup_triangles(mesh, tiles.view, params, exec, scratch.setup);
+    bin_records(scratch.setup, {0, 0, tiles.view.width, tiles.view.height}, frame_tile_side, exec,
+                scratch.bins);
+    tiles.setup = &scratch.setup;
+    tiles.bins = &scratch.bins;
+}
+
+TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache) {
+    const RenderSettings& render = scene.render;
+    TileScene t = tile_scene(scene, render.width, render.height, render.samples);
+    set_up_triangles(scene.mesh, exec, cache.camera_scratch, t);
+    t.mesh = &scene.mesh;
+    t.surface = surface_mesh(scene.mesh, cache.surface);
     return t;
 }
 

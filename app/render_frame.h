@@ -52,4 +52,13 @@ void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, Fram
 /// have no shadows yet.
 TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache);
 
+// Its parts, for pictures that are wider than the scene's own or of moved geometry.
+
+/// What the tiles of a width x height picture read beside geometry: the camera's rays (a wider picture shows
+/// more to either side), materials, lights without shadows, sky.
+TileScene tile_scene(const Scene& scene, int width, int height, int samples);
+
+/// Sets `mesh` up for the view of `tiles`, which borrows from scratch.
+void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch, TileScene& tiles);
+
 }  // namespace obscura

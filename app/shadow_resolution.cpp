@@ -85,6 +85,25 @@ double needed_texels(const TileScene& tiles, const PcfLight& light, double range
     return texels * std::max(1.0, least_cosine / cosine);
 }
 
+/// Tile by tile, light by light.
+std::vector<Need> needs_of_tiles(const TileScene& tiles, std::span<const ResolutionQuery> queries,
+                                 std::span<const PcfLight> lights, const Exec& exec) {
+    const SamplePosition sample = tiles.pattern[0];
+    std::vector<Need> needs(tiles.bins->tiles() * queries.size());
+    parallel_for(tiles.bins->tiles(), exec, [&](std::size_t i) {
+        TileWork work;  // not initialised: every stage writes what the next one reads
+        walk_tile(tiles, i, sample, exec.isa, work, [&](int x, int y, int at) {
+            for (std::size_t l = 0; l < queries.size(); ++l) {
+                Need& need = needs[i * queries.size() + l];
+                const double texels = needed_texels(tiles, lights[l], queries[l].light->range_m, work.surface,
+                                                    at, x + sample.x / 256.0, y + sample.y / 256.0);
+                if (texels < need.texels) need = {texels, x, y};
+            }
+        });
+    });
+    return needs;
+}
+
 FoundResolution resolution_for(const Light& light, const Bounds& casters, const Need& need) {
     FoundResolution found;
     if (!(need.texels < std::numeric_limits<double>::infinity())) return found;
@@ -121,34 +140,24 @@ double footprint_texels(const CameraRays& rays, const PcfView& view, const Surfa
                                 dot(across, steps.down) * scale, dot(down, steps.down) * scale);
 }
 
-std::vector<FoundResolution> find_resolutions(const TileScene& tiles, Vec3d eye,
+std::vector<FoundResolution> find_resolutions(std::span<const TileScene> pictures, Vec3d eye,
                                               std::span<const ResolutionQuery> queries, const Exec& exec) {
     std::vector<PcfLight> lights;
     for (const ResolutionQuery& q : queries) {
         const auto views = fitted_shadow_views(*q.light, q.casters, most_map_resolution);
         lights.push_back(pcf_light(*q.light, views, eye));
     }
-    const SamplePosition sample = tiles.pattern[0];
-    std::vector<Need> needs(tiles.bins->tiles() * queries.size());
-    parallel_for(tiles.bins->tiles(), exec, [&](std::size_t i) {
-        TileWork work;  // not initialised: every stage writes what the next one reads
-        walk_tile(tiles, i, sample, exec.isa, work, [&](int x, int y, int at) {
-            for (std::size_t l = 0; l < queries.size(); ++l) {
-                Need& need = needs[i * queries.size() + l];
-                const double texels = needed_texels(tiles, lights[l], queries[l].light->range_m, work.surface,
-                                                    at, x + sample.x / 256.0, y + sample.y / 256.0);
-                if (texels < need.texels) need = {texels, x, y};
-            }
-        });
-    });
-    std::vector<FoundResolution> found;
-    for (std::size_t l = 0; l < queries.size(); ++l) {
-        Need need;
-        for (std::size_t i = l; i < needs.size(); i += queries.size()) {
+    std::vector<Need> most(queries.size());
+    for (const TileScene& tiles : pictures) {
+        const std::vector<Need> needs = needs_of_tiles(tiles, queries, lights, exec);
+        for (std::size_t i = 0; i < needs.size(); ++i) {
+            Need& need = most[i % queries.size()];
             if (needs[i].texels < need.texels) need = needs[i];
         }
-        found.push_back(resolution_for(*queries[l].light, queries[l].casters, need));
     }
+    std::vector<FoundResolution> found;
+    for (std::size_t l = 0; l < queries.size(); ++l)
+        found.push_back(resolution_for(*queries[l].light, queries[l].casters, most[l]));
     return found;
 }
 

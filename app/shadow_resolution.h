@@ -31,8 +31,9 @@ struct ResolutionQuery {
     Bounds casters;
 };
 
-/// One answer per query, the same for any exec. `tiles`: of the whole picture; its lights are not read.
-std::vector<FoundResolution> find_resolutions(const TileScene& tiles, Vec3d eye,
+/// One answer per query, the same for any exec. `pictures`: whole ones, of which every pixel counts; their
+/// lights are not read.
+std::vector<FoundResolution> find_resolutions(std::span<const TileScene> pictures, Vec3d eye,
                                               std::span<const ResolutionQuery> queries, const Exec& exec);
 
 /// Shorter axis, in texels of the map, of what a pixel covers there; 0 when it sees the surface edge on, or

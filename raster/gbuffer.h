@@ -42,6 +42,12 @@ struct SurfaceMesh {
     const SurfaceTriangle* triangles = nullptr;
     const SurfaceVertex* vertices = nullptr;
     const std::uint32_t* corners = nullptr;  ///< three vertex indices per triangle
+    /// Where the vertices are seen, x y z each, when that is not where they are; else null. Rays then meet
+    /// the triangles that are seen; what they find there (position, normals, texture coordinates) is of the
+    /// vertices themselves, by the same barycentrics. Which side faces the viewer is as seen.
+    const float* seen = nullptr;
+    /// With `seen`: how many pixels further right lies what the ray of an uncovered sample shows.
+    float background_shift_px = 0;
 };
 
 /// One block of samples: index = row * 64 + column. Bit i of a mask word is sample 16 * group + i.
@@ -65,7 +71,8 @@ struct alignas(64) SurfaceBlock {
 };
 
 /// surface_block: everything of `block` but the texels, from its depth and triangle. `tile` is the whole
-/// tile; `first_row` the block's first row in it. Barycentrics are clamped to the triangle.
+/// tile; `first_row` the block's first row in it. Barycentrics are clamped to the triangle. With mesh.seen
+/// rays are perspective.
 #define OBSCURA_SURFACE_BLOCK                                                                 \
     void surface_block(const SurfaceMesh& mesh, const CameraRays& rays, const TileRect& tile, \
                        std::int32_t first_row, SurfaceBlock& block) noexcept;

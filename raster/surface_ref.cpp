@@ -119,6 +119,38 @@ void texture_coordinates(const SurfaceVertex* const (&vertex)[3], const RayTrian
     block.vy[at] = e1.y * by.b1 + e2.y * by.b2;
 }
 
+/// Corners of a triangle.
+struct Corners {
+    const SurfaceVertex* vertex[3];
+    std::uint32_t index[3];
+};
+
+Corners corners_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
+    Corners c;
+    for (int k = 0; k < 3; ++k) {
+        c.index[k] = mesh.corners[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(k)];
+        c.vertex[k] = mesh.vertices + c.index[k];
+    }
+    return c;
+}
+
+/// Positions are relative to the eye, which two floats hold per axis.
+Vec3f relative_to_eye(const CameraRays& rays, Vec3f position) {
+    const Vec3f eye = vector_of(rays.eye);
+    const Vec3f eye_rest = {static_cast<float>(rays.eye[0] - static_cast<double>(eye.x)),
+                            static_cast<float>(rays.eye[1] - static_cast<double>(eye.y)),
+                            static_cast<float>(rays.eye[2] - static_cast<double>(eye.z))};
+    return (position - eye) - eye_rest;
+}
+
+Vec3f smooth_normal(const Corners& corners, Barycentrics b, Vec3f geometric) {
+    const Vec3f n0 = vec(corners.vertex[0]->normal);
+    const Vec3f sum =
+        (n0 + (vec(corners.vertex[1]->normal) - n0) * b.b1) + (vec(corners.vertex[2]->normal) - n0) * b.b2;
+    const float square = dot(sum, sum);
+    return square > 1e-12f ? sum * (1.0f / std::sqrt(square)) : geometric;
+}
+
 void surface_sample(const SurfaceMesh& mesh, const CameraRays& rays, const Ray& ray, SurfaceBlock& block,
                     int at) {
     const std::uint32_t t = block.triangle[at];
@@ -129,31 +161,48 @@ void surface_sample(const SurfaceMesh& mesh, const CameraRays& rays, const Ray& 
     const Vec3f geometric = vec(surface.normal);
     Vec3f normal = geometric;
     if ((surface.info & (surface_smooth | surface_textured)) != 0) {
-        const std::uint32_t* corners = mesh.corners + 3 * static_cast<std::size_t>(t);
-        const SurfaceVertex* const vertex[3] = {mesh.vertices + corners[0], mesh.vertices + corners[1],
-                                                mesh.vertices + corners[2]};
-        // Positions are relative to the eye, which two floats hold per axis.
-        const Vec3f eye = vector_of(rays.eye);
-        const Vec3f eye_rest = {static_cast<float>(rays.eye[0] - static_cast<double>(eye.x)),
-                                static_cast<float>(rays.eye[1] - static_cast<double>(eye.y)),
-                                static_cast<float>(rays.eye[2] - static_cast<double>(eye.z))};
+        const Corners corners = corners_of(mesh, t);
         Vec3f corner[3];
         for (int k = 0; k < 3; ++k)
-            corner[k] = (vec(vertex[k]->position) - eye) - eye_rest;
+            corner[k] = relative_to_eye(rays, vec(corners.vertex[k]->position));
         const RayTriangle m = ray_triangle(corner, ray.origin, ray.dir);
         const Barycentrics b = clamped(m);
-        if ((surface.info & surface_smooth) != 0) {
-            const Vec3f n0 = vec(vertex[0]->normal);
-            const Vec3f sum =
-                (n0 + (vec(vertex[1]->normal) - n0) * b.b1) + (vec(vertex[2]->normal) - n0) * b.b2;
-            const float square = dot(sum, sum);
-            if (square > 1e-12f) normal = sum * (1.0f / std::sqrt(square));
-        }
-        if ((surface.info & surface_textured) != 0) texture_coordinates(vertex, m, ray, b, block, at);
+        if ((surface.info & surface_smooth) != 0) normal = smooth_normal(corners, b, geometric);
+        if ((surface.info & surface_textured) != 0) texture_coordinates(corners.vertex, m, ray, b, block, at);
     }
 
     // Seen from behind: both normals turn to the viewer.
     const bool behind = 0.0f < dot(geometric, ray.dir);
+    out.normal(behind ? -normal : normal);
+    out.geometric(behind ? -geometric : geometric);
+    block.material[at] = static_cast<std::int32_t>(surface.info & surface_material_mask);
+}
+
+/// The same where vertices are seen elsewhere than they are: the ray meets the triangle that is seen, and its
+/// barycentrics say where in the true one it is.
+void moved_sample(const SurfaceMesh& mesh, const CameraRays& rays, const Ray& ray, SurfaceBlock& block,
+                  int at) {
+    const std::uint32_t t = block.triangle[at];
+    const SurfaceTriangle& surface = mesh.triangles[t];
+    Store out{block, at};
+    const Corners corners = corners_of(mesh, t);
+    Vec3f seen[3], corner[3];
+    for (int k = 0; k < 3; ++k) {
+        const float* p = mesh.seen + 3 * static_cast<std::size_t>(corners.index[k]);
+        seen[k] = relative_to_eye(rays, {p[0], p[1], p[2]});
+        corner[k] = relative_to_eye(rays, vec(corners.vertex[k]->position));
+    }
+    const RayTriangle m = ray_triangle(seen, ray.origin, ray.dir);
+    const Barycentrics b = clamped(m);
+    out.position((corner[0] + (corner[1] - corner[0]) * b.b1) + (corner[2] - corner[0]) * b.b2);
+
+    const Vec3f geometric = vec(surface.normal);
+    const bool smooth = (surface.info & surface_smooth) != 0;
+    const Vec3f normal = smooth ? smooth_normal(corners, b, geometric) : geometric;
+    if ((surface.info & surface_textured) != 0) texture_coordinates(corners.vertex, m, ray, b, block, at);
+
+    // The side that is seen is the seen triangle's; its normal is -m.c.
+    const bool behind = dot(ray.dir, m.c) < 0.0f;
     out.normal(behind ? -normal : normal);
     out.geometric(behind ? -geometric : geometric);
     block.material[at] = static_cast<std::int32_t>(surface.info & surface_material_mask);
@@ -174,12 +223,18 @@ void surface_block(const SurfaceMesh& mesh, const CameraRays& rays, const TileRe
             const double X = sample_position(tile.x0 + at % frame_tile_side, tile.sample_x);
             const double Y = sample_position(tile.y0 + first_row + at / frame_tile_side, tile.sample_y);
             const Ray ray = ray_at(rays, X, Y);
+            const bool moved = mesh.seen != nullptr;
             if (block.triangle[at] == no_triangle) {
-                Store{block, at}.position(ray.origin + ray.dir * 1.0f);
+                const Vec3f dir = moved ? ray.dir + ray.dir_x * mesh.background_shift_px : ray.dir;
+                Store{block, at}.position(ray.origin + dir * 1.0f);
                 block.material[at] = 0;
                 continue;
             }
-            surface_sample(mesh, rays, ray, block, at);
+            if (moved) {
+                moved_sample(mesh, rays, ray, block, at);
+            } else {
+                surface_sample(mesh, rays, ray, block, at);
+            }
             const std::uint32_t info = mesh.triangles[block.triangle[at]].info, bit = 1u << lane;
             covered |= bit;
             open |= (info & surface_open) != 0 ? bit : 0;
