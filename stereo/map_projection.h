@@ -1,0 +1,33 @@
+#pragma once
+// Where points of the scene lie in the middle view's map.
+
+#include "core/scene.h"
+#include "core/types.h"
+#include "core/vec.h"
+#include "stereo/middle_view.h"
+
+namespace obscura {
+
+/// A point of the map, homogeneous: column times z, row times z, z in metres along the view axis. Pixel (i,
+/// j) covers columns [i, i + 1) and rows [j, j + 1). Finite for points beside and behind the camera, too.
+struct MapPoint {
+    double xz = 0, yz = 0, z = 0;
+    double column() const { return xz / z; }
+    double row() const { return yz / z; }
+};
+
+struct MapProjection {
+    View view;                 ///< of the whole map, margins included
+    Vec3d eye;                 ///< world
+    Vec3d ray0, ray_x, ray_y;  ///< from the eye to (column, row) at 1 m: ray0 + column ray_x + row ray_y
+    double focal_px = 0;
+    double near_m = 0;
+    MapPoint project(Vec3f world) const;
+    Vec3d ray(double column, double row) const { return ray0 + ray_x * column + ray_y * row; }
+    bool in_front(const MapPoint& p) const { return p.z >= near_m; }
+};
+
+/// CHECKs that the camera is perspective and the view at full resolution.
+MapProjection map_projection(const Camera& camera, const MiddleView& view);
+
+}  // namespace obscura
