@@ -24,7 +24,10 @@ struct MapProjection {
     double near_m = 0;
     MapPoint project(Vec3f world) const;
     Vec3d ray(double column, double row) const { return ray0 + ray_x * column + ray_y * row; }
-    bool in_front(const MapPoint& p) const { return p.z >= near_m; }
+    /// Whether it has a place on the map. Nothing before near_m is drawn; triangles that reach behind the
+    /// camera are cut at cut_m(), so that rounding leaves the cut on the safe side of both.
+    bool in_front(const MapPoint& p) const { return p.z >= 0.5 * near_m; }
+    double cut_m() const { return 0.75 * near_m; }
 };
 
 /// CHECKs that the camera is perspective and the view at full resolution.
