@@ -14,12 +14,11 @@
 namespace obscura {
 namespace {
 
-Region crop_of(const RenderSettings& render, const FrameOptions& options) {
+Region crop_of(const Region& whole, const FrameOptions& options) {
     const Region& c = options.crop;
-    if (c.width <= 0 || c.height <= 0) return {0, 0, render.width, render.height};
-    CHECK(
-        c.x0 >= 0 && c.y0 >= 0 && c.x0 + c.width <= render.width && c.y0 + c.height <= render.height,
-        fmt::format("crop {},{} {}x{} of {}x{}", c.x0, c.y0, c.width, c.height, render.width, render.height));
+    if (c.width <= 0 || c.height <= 0) return whole;
+    CHECK(c.x0 >= 0 && c.y0 >= 0 && c.x0 + c.width <= whole.width && c.y0 + c.height <= whole.height,
+          fmt::format("crop {},{} {}x{} of {}x{}", c.x0, c.y0, c.width, c.height, whole.width, whole.height));
     return c;
 }
 
@@ -75,6 +74,28 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
     return t;
 }
 
+void render_picture(const Scene& scene, const TileScene& tiles, const FrameOptions& options, const Exec& exec,
+                    std::optional<KeptPsf>& psf, Frame& frame) {
+    const Stopwatch shade;
+    const Region whole{0, 0, tiles.view.width, tiles.view.height}, crop = crop_of(whole, options);
+    // Glare comes from anywhere: it takes the whole picture, and what the pixels show where kernels differ.
+    FrameOptions wanted = options;
+    wanted.depth |= wants_source_kernels(scene.optics);
+    wanted.object |= wants_source_kernels(scene.optics);
+    size_frame(scene.optics.enabled ? whole : crop, wanted, frame);
+    // A pattern may take longer than the picture: half of the progress is its own.
+    const bool has_glare = scene.optics.enabled && options.progress;
+    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 * share); };
+    render_tiles(tiles, wanted, exec, frame);
+    frame.stats.tiles_s = shade.seconds();
+    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 + 0.5 * share); };
+    if (frame.complete) add_frame_glare(scene, wanted, exec, psf, frame);
+    if (has_glare && frame.complete) options.progress(1);
+    if (!options.depth) frame.depth_m = {};
+    if (!options.object) frame.object = {};
+    if (scene.optics.enabled) crop_frame(crop, frame);
+}
+
 void render_frame(const Scene& scene, const FrameOptions& options, const Exec& exec, FrameCache& cache,
                   Frame& frame) {
     const Stopwatch total;
@@ -93,7 +114,7 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     frame.stats.setup_s = setup.seconds();
     const std::int64_t other_bytes = memory.total() - memory.shadow_maps;
     if (!prepare_shadows(scene, other_bytes, exec, cache, tiles, frame.stats, options.cancel)) {
-        size_frame(crop_of(scene.render, options), options, frame);
+        size_frame(crop_of({0, 0, scene.render.width, scene.render.height}, options), options, frame);
         frame.complete = false;
         frame.stats.total_s = total.seconds();
         return;
@@ -102,24 +123,7 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     for (const LightShadow& shadow : cache.shadows)
         frame.stats.lights.push_back(shadow.stats);
 
-    const Stopwatch shade;
-    const Region crop = crop_of(scene.render, options), whole{0, 0, scene.render.width, scene.render.height};
-    // Glare comes from anywhere: it takes the whole picture, and what the pixels show where kernels differ.
-    FrameOptions wanted = options;
-    wanted.depth |= wants_source_kernels(scene.optics);
-    wanted.object |= wants_source_kernels(scene.optics);
-    size_frame(scene.optics.enabled ? whole : crop, wanted, frame);
-    // A pattern may take longer than the picture: half of the progress is its own.
-    const bool has_glare = scene.optics.enabled && options.progress;
-    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 * share); };
-    render_tiles(tiles, wanted, exec, frame);
-    frame.stats.tiles_s = shade.seconds();
-    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 + 0.5 * share); };
-    if (frame.complete) add_frame_glare(scene, wanted, exec, cache.psf, frame);
-    if (has_glare && frame.complete) options.progress(1);
-    if (!options.depth) frame.depth_m = {};
-    if (!options.object) frame.object = {};
-    if (scene.optics.enabled) crop_frame(crop, frame);
+    render_picture(scene, tiles, options, exec, cache.psf, frame);
     frame.stats.total_s = total.seconds();
 }
 

@@ -61,4 +61,9 @@ TileScene tile_scene(const Scene& scene, int width, int height, int samples);
 /// Sets `mesh` up for the view of `tiles`, which borrows from scratch.
 void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch, TileScene& tiles);
 
+/// The steps after them: the pixels of prepared tiles, all or options.crop's, with glare. frame.stats.lights
+/// are told already.
+void render_picture(const Scene& scene, const TileScene& tiles, const FrameOptions& options, const Exec& exec,
+                    std::optional<KeptPsf>& psf, Frame& frame);
+
 }  // namespace obscura
