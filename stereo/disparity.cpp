@@ -128,8 +128,10 @@ TwoWayDisparity two_way_of_depth(const Image<float>& left_depth_m, const Image<f
 
 Image<std::uint8_t> occlusion_mask(const EyeDisparity& eye) {
     Image<std::uint8_t> mask(eye.sight.width, eye.sight.height);
-    for (std::size_t i = 0; i < mask.pixels.size(); ++i)
-        mask.pixels[i] = eye.sight.pixels[i] == Sight::both ? 0 : 255;
+    for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+        const Sight sight = eye.sight.pixels[i];
+        mask.pixels[i] = sight == Sight::both ? 0 : sight == Sight::unknown ? 128 : 255;
+    }
     return mask;
 }
 

@@ -64,7 +64,7 @@ TwoWayDisparity cross_checked(EyeDisparity left, EyeDisparity right, const TwoWa
 TwoWayDisparity two_way_of_depth(const Image<float>& left_depth_m, const Image<float>& right_depth_m,
                                  const DisparityLaw& law, const TwoWayParams& params, const Exec& exec);
 
-/// 255 where `sight` is not `both`, else 0: the occlusion mask as a picture.
+/// As a picture: 255 where this eye alone sees the surface (hidden, outside), 128 where unknown, else 0.
 Image<std::uint8_t> occlusion_mask(const EyeDisparity& eye);
 
 }  // namespace obscura

@@ -44,28 +44,23 @@ void draw_segment(SpanPoint a, SpanPoint b, std::span<RowHit> hits) {
 
 /// The surface of pixels first to last, joined all the way.
 void draw_run(const SpanRow& row, int first, int last, double shift, std::span<RowHit> hits) {
-    const auto place = [&](double column, double disparity, double original) {
-        return SpanPoint{column, disparity, original, column + shift * disparity - row.margin};
+    // A point `past` an end lies on the surface's slope there, but shows the end's own pixel.
+    const auto point = [&](int x, int inner, double past) {
+        const auto value = [&](const float* of) {
+            const auto here = static_cast<double>(of[x]);
+            return here + std::abs(past) * (here - static_cast<double>(of[inner]));
+        };
+        const double disparity = value(row.disparity);
+        return SpanPoint{static_cast<double>(x), disparity, value(row.original),
+                         x + past + shift * disparity - row.margin};
     };
-    const auto centre = [&](int x) {
-        return place(x, static_cast<double>(row.disparity[x]), static_cast<double>(row.original[x]));
-    };
-    // Half a pixel past an end, along the slope there.
-    const auto beyond = [&](int end, int inner) {
-        const SpanPoint e = centre(end), i = centre(inner);
-        const double away = end < inner || first == end ? -0.5 : 0.5;
-        return place(e.column + away, e.disparity + 0.5 * (e.disparity - i.disparity),
-                     e.original + 0.5 * (e.original - i.original));
-    };
-    SpanPoint from = beyond(first, std::min(first + 1, last));
+    SpanPoint from = point(first, std::min(first + 1, last), -0.5);
     for (int x = first; x <= last; ++x) {
-        const SpanPoint to = centre(x);
+        const SpanPoint to = point(x, x, 0);
         draw_segment(from, to, hits);
         from = to;
     }
-    SpanPoint after = beyond(last, std::max(first, last - 1));
-    if (first == last) after = place(last + 0.5, from.disparity, from.original);
-    draw_segment(from, after, hits);
+    draw_segment(from, point(last, std::max(first, last - 1), 0.5), hits);
 }
 
 }  // namespace

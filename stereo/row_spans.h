@@ -29,7 +29,7 @@ struct SpanRow {
 struct RowHit {
     float original = -std::numeric_limits<float>::infinity();
     float disparity = std::numeric_limits<float>::quiet_NaN();
-    float column = 0;  ///< of the row, between centres; whole numbers are centres
+    float column = 0;  ///< of the row, from centre to centre of one surface; whole numbers are centres
     bool found() const { return original > -std::numeric_limits<float>::infinity(); }
 };
 

@@ -85,6 +85,16 @@ TEST(RowSpans, NearerStaysAndUncoveredIsEmpty) {
     const float expected[] = {0, 0, 0, nothing, nothing, 4, 4, 0, 0, 0};
     for (std::size_t x = 0; x < 10; ++x)
         EXPECT_EQ(hits[x].original, expected[x]) << x;
+
+    // Outlines show their own pixels, not a mixture with what lies beside them.
+    std::vector<RowHit> between(10);
+    draw_spans({d, d, nullptr, 10, 0}, 0.45, 0.5, between);
+    for (const RowHit& hit : between) {
+        if (!hit.found()) continue;
+        const bool own =
+            hit.original > 0 ? hit.column >= 3 && hit.column <= 4 : hit.column <= 2 || hit.column >= 5;
+        EXPECT_TRUE(own) << hit.column;
+    }
 }
 
 struct Agreement {
@@ -160,6 +170,7 @@ TEST_P(BothEyes, FromTheirOwnDepthAgreeWithRays) {
     EXPECT_LT(a.wrong_sight, scene.height);
     const Image<std::uint8_t> mask = occlusion_mask(side < 0 ? two.left : two.right);
     EXPECT_EQ(mask(scene.width / 2, 20), 0);
+    EXPECT_EQ(mask(side < 0 ? scene.width - 1 : 0, 20), 255);  // beyond the other's picture
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, BothEyes, testing::Values(-1, 1),
