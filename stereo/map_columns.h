@@ -1,7 +1,6 @@
 #pragma once
 // Between pixels of the picture and of the map, which may be wider by margins and reduced.
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -18,12 +17,11 @@ struct MapPixel {
 /// Where the middle of a map's pixel is, in pixels of the picture: of the pixel that a reduced map keeps of
 /// its block. Less than 0 in the left margin.
 inline double picture_x(const MiddleView& view, int column) {
-    const int kept = std::min(column * view.reduction + (view.reduction - 1) / 2,
-                              view.picture_width + 2 * view.margin_px - 1);
-    return kept + 0.5 - view.margin_px;
+    const int map_width = view.picture_width + 2 * view.margin_px;
+    return sampled_pixel(column, view.reduction, map_width) + 0.5 - view.margin_px;
 }
 inline double picture_y(const MiddleView& view, int row) {
-    return std::min(row * view.reduction + (view.reduction - 1) / 2, view.picture_height - 1) + 0.5;
+    return sampled_pixel(row, view.reduction, view.picture_height) + 0.5;
 }
 
 /// The map's pixel that a point of the picture lies in; nothing beyond the map.
