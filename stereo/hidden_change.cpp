@@ -48,9 +48,9 @@ void extend_seen_triangles(const SeenChange& seen, std::span<const Triangle> tri
             }
             for (int k = 0; k < 3; ++k) {
                 const MapPoint& at = points[triangles[list[i]].v[k]].map;
-                const bool ahead = seen.projection.in_front(at);
-                fitted[i].change[k] =
-                    ahead ? fit.at(at.column(), at.row(), 1.0) : 0.5 * (fit.low() + fit.high());
+                // A plane over the screen goes on behind the camera, by the same formula.
+                fitted[i].change[k] = at.z == 0 ? 0.5 * (fit.low() + fit.high())
+                                                : fit.at(at.column(), at.row(), seen.slack(at));
             }
         }
     });

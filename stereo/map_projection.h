@@ -28,6 +28,10 @@ struct MapProjection {
     /// camera are cut at cut_m(), so that rounding leaves the cut on the safe side of both.
     bool in_front(const MapPoint& p) const { return p.z >= 0.5 * near_m; }
     double cut_m() const { return 0.75 * near_m; }
+    /// Whether the map reaches there. What lies beside it, or behind the camera, no eye sees.
+    bool on_map(const MapPoint& p) const {
+        return in_front(p) && p.xz >= 0 && p.yz >= 0 && p.xz <= view.width * p.z && p.yz <= view.height * p.z;
+    }
 };
 
 /// CHECKs that the camera is perspective and the view at full resolution.

@@ -86,7 +86,7 @@ void fit_points(const SeenChange& seen, std::span<const std::uint32_t> triangles
     }
     for (const std::uint32_t p : list) {
         const PointSums& s = at[p];
-        const double reach = s.high - s.low;
+        const double reach = seen.slack(surface.points[p].map) * (s.high - s.low);
         const double change =
             static_cast<double>(surface.points[p].change_px) + damping * s.pull / (s.weight + trust);
         surface.points[p].change_px = static_cast<float>(std::clamp(change, s.low - reach, s.high + reach));

@@ -31,6 +31,10 @@ struct SeenChange {
     Image<std::uint32_t> component;  ///< per pixel; nothing_seen where nothing is
     int radius_px = 2;
     float at(std::uint32_t pixel) const { return change_px.pixels[pixel]; }
+    /// How far beyond the range of what a triangle shows its hidden corners may go, times that range. Only
+    /// where the map might show them: a triangle that comes from far outside must be free to lean, and there
+    /// nobody sees how far.
+    double slack(const MapPoint& p) const { return projection.on_map(p) ? 1.0 : 1e6; }
 };
 
 /// CHECKs that the view has triangles and that sizes agree.
