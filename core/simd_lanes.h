@@ -103,6 +103,29 @@ OBSCURA_INLINE void store_interleaved(float* p, const F32& a, const F32& b) {
     }
 #endif
 }
+/// The inverse of store_interleaved: p[0] p[2] ... p[30], and p[1] p[3] ... p[31].
+OBSCURA_INLINE void load_deinterleaved(const float* p, F32& even, F32& odd) {
+#if defined(OBSCURA_ISA_avx512bw)
+    const __m512i first = _mm512_set_epi32(30, 28, 26, 24, 22, 20, 18, 16, 14, 12, 10, 8, 6, 4, 2, 0);
+    const __m512i second = _mm512_set_epi32(31, 29, 27, 25, 23, 21, 19, 17, 15, 13, 11, 9, 7, 5, 3, 1);
+    const __m512 a = _mm512_loadu_ps(p), b = _mm512_loadu_ps(p + 16);
+    even.r[0] = F32::Reg(_mm512_permutex2var_ps(a, first, b));
+    odd.r[0] = F32::Reg(_mm512_permutex2var_ps(a, second, b));
+#elif defined(OBSCURA_ISA_avx2)
+    for (int k = 0; k < 2; ++k) {
+        const __m256 a = _mm256_loadu_ps(p + 16 * k), b = _mm256_loadu_ps(p + 16 * k + 8);
+        const __m256 low = _mm256_permute2f128_ps(a, b, 0x20), high = _mm256_permute2f128_ps(a, b, 0x31);
+        even.r[k] = F32::Reg(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0)));
+        odd.r[k] = F32::Reg(_mm256_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
+    }
+#else
+    for (int k = 0; k < 4; ++k) {
+        const __m128 a = _mm_loadu_ps(p + 8 * k), b = _mm_loadu_ps(p + 8 * k + 4);
+        even.r[k] = F32::Reg(_mm_shuffle_ps(a, b, _MM_SHUFFLE(2, 0, 2, 0)));
+        odd.r[k] = F32::Reg(_mm_shuffle_ps(a, b, _MM_SHUFFLE(3, 1, 3, 1)));
+    }
+#endif
+}
 /// Lane 15 first, lane 0 last.
 OBSCURA_INLINE F32 reverse(const F32& a) {
     F32 v;

@@ -83,17 +83,50 @@ double energy(const DisparitySystem& s, const DisparityMap& x) {
     return sum;
 }
 
+void residual_row(const DisparitySystem& s, const DisparityMap& x, int y, double* out) {
+    const auto width = static_cast<std::size_t>(s.width());
+    const double weight = 2.0 * static_cast<double>(s.gradient_weight);
+    const std::uint8_t* valid = s.valid.row(y);
+    const float *value = x.row(y), *original = s.original.row(y);
+    const float *anchor = s.anchor_weight.row(y), *wanted = s.anchor_value.row(y);
+    for (std::size_t i = 0; i < width; ++i) {
+        const auto v = static_cast<double>(value[i]);
+        out[i] = static_cast<double>(s.epsilon) * (static_cast<double>(original[i]) - v) +
+                 static_cast<double>(anchor[i]) * (static_cast<double>(wanted[i]) - v);
+    }
+    // Each pair pulls its two ends by the same number, so that nothing is lost in the sum.
+    const float* right = s.gradient_x.row(y);
+    double before = 0;
+    for (std::size_t i = 0; i < width; ++i) {
+        double pull = 0;
+        if (i + 1 < width && (valid[i] & valid[i + 1]) != 0) {
+            pull = weight * (static_cast<double>(right[i]) -
+                             (static_cast<double>(value[i + 1]) - static_cast<double>(value[i])));
+        }
+        out[i] += before - pull;
+        before = pull;
+    }
+    const auto add_pairs = [&](int upper, double sign) {
+        const float *a = x.row(upper), *b = x.row(upper + 1), *down = s.gradient_y.row(upper);
+        const std::uint8_t *above = s.valid.row(upper), *below = s.valid.row(upper + 1);
+        for (std::size_t i = 0; i < width; ++i) {
+            const double pull = weight * (static_cast<double>(down[i]) -
+                                          (static_cast<double>(b[i]) - static_cast<double>(a[i])));
+            out[i] += (above[i] & below[i]) != 0 ? sign * pull : 0.0;
+        }
+    };
+    if (y > 0) add_pairs(y - 1, 1.0);
+    if (y + 1 < s.height()) add_pairs(y, -1.0);
+    for (std::size_t i = 0; i < width; ++i)
+        out[i] = valid[i] != 0 ? out[i] : 0.0;
+}
+
 Image<double> residual(const DisparitySystem& s, const DisparityMap& x) {
     check(s, x);
-    const auto value = [&](std::size_t i) { return static_cast<double>(x.pixels[i]); };
     Image<double> r(s.width(), s.height());
-    pair_terms(s, [&](double weight, std::size_t a, std::size_t b, double wanted) {
-        const double pull = weight * (wanted - (value(b) - value(a)));
-        r.pixels[a] -= pull;
-        r.pixels[b] += pull;
-    });
-    pixel_terms(
-        s, [&](double weight, std::size_t a, double wanted) { r.pixels[a] += weight * (wanted - value(a)); });
+    for (int y = 0; y < s.height(); ++y)
+        residual_row(s, x, y, r.row(y));
+    set_residuals(s, x, [&](int i, int j, double value) { r(i, j) += value; });
     return r;
 }
 

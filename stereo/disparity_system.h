@@ -60,4 +60,26 @@ double energy(const DisparitySystem& system, const DisparityMap& x);
 /// b - A x in double, unrounded: minus half the gradient of the energy. 0 at pixels that are not valid.
 Image<double> residual(const DisparitySystem& system, const DisparityMap& x);
 
+/// The same for row y without matching sets; `out` has width() doubles.
+void residual_row(const DisparitySystem& system, const DisparityMap& x, int y, double* out);
+
+/// Calls add(x, y, value) with what matching sets add to the residual, members before their source.
+template <class Add>
+void set_residuals(const DisparitySystem& system, const DisparityMap& x, Add&& add) {
+    for (const MatchingSet& set : system.sets) {
+        if (system.valid(set.source_x, set.source_y) == 0) continue;
+        const auto source = static_cast<double>(x(set.source_x, set.source_y));
+        const auto weight = static_cast<double>(set.weight);
+        double back = 0;
+        for (const MatchedPixel& p : set.members) {
+            if (system.valid(p.x, p.y) == 0 || (p.x == set.source_x && p.y == set.source_y)) continue;
+            const double pull =
+                weight * (static_cast<double>(p.target) + source - static_cast<double>(x(p.x, p.y)));
+            add(p.x, p.y, pull);
+            back -= pull;
+        }
+        add(set.source_x, set.source_y, back);
+    }
+}
+
 }  // namespace obscura

@@ -1,0 +1,27 @@
+#pragma once
+// Conjugate gradients preconditioned by a V-cycle, and the V-cycle alone, in the same loop.
+//
+// Hestenes and Stiefel, "Methods of Conjugate Gradients for Solving Linear Systems", 1952; Tatebe 1993.
+// Unknown is the difference to where the solve starts, so that single precision is spent on what changes. An
+// iteration is three passes over memory: down and up the V-cycle's finest level (v_cycle.h), then the new
+// direction, its product with the matrix, the solution's update and all sums.
+
+#include "stereo/solver.h"
+#include "stereo/v_cycle.h"
+
+namespace obscura {
+
+/// r = b - A x of the system, in double, rounded once; per unknown of the hierarchy.
+void start_residual(const DisparitySystem& system, const GridHierarchy& hierarchy, const DisparityMap& x,
+                    const Exec& exec, GridVector& r);
+
+/// sqrt of the sum of squares.
+double norm(const GridVector& r, const Exec& exec);
+
+/// Adds to `x` what lies between it and the minimiser, until the estimated error is within the tolerances.
+/// `stationary`: V-cycles without conjugate gradients. Appends to report.steps and fills its estimates,
+/// iterations and converged.
+void iterate(const DisparitySystem& system, GridHierarchy& hierarchy, const SolverParams& params,
+             bool stationary, const Exec& exec, DisparityMap& x, SolveReport& report, LevelSeconds& seconds);
+
+}  // namespace obscura
