@@ -41,6 +41,15 @@ struct Normal3 {
 /// Towards 0: squared pixels of disparity, squared reduced pixels of place. Disparity explains what it can.
 constexpr double disparity_pull = 1e-4, place_pull = 0.05;
 
+/// A neighbour this much nearer or farther, pixels, counts half: it may be of another surface.
+constexpr double apart = 4;
+
+/// Across an edge of the surface the change may bend, too.
+double facing(Vec3f a, Vec3f b) {
+    const auto cosine = static_cast<double>(std::max(dot(a, b), 0.0f));
+    return 0.02 + cosine * cosine;
+}
+
 }  // namespace
 
 Image<ChangeSample> change_samples(const MiddleView& full, const MiddleView& low, const Image<float>& change,
@@ -64,8 +73,10 @@ Image<ChangeSample> change_samples(const MiddleView& full, const MiddleView& low
                 const auto difference = static_cast<double>(change(i, j) - s.change);
                 flat = flat && change(i, j) == s.change;
                 const int columns = sampled_pixel(i, n, full.width()) - sampled_pixel(x, n, full.width());
-                equations.add(static_cast<double>(low.disparity(i, j) - s.disparity), columns, rows,
-                              difference);
+                const auto d = static_cast<double>(low.disparity(i, j) - s.disparity);
+                double weight = 1 / (1 + d * d / (apart * apart));
+                if (!low.normal.pixels.empty()) weight *= facing(s.normal, low.normal(i, j));
+                equations.add(weight * d, weight * columns, weight * rows, weight * difference);
             }
         }
         if (flat) return s;

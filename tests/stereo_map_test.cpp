@@ -97,6 +97,26 @@ TEST(RowSpans, NearerStaysAndUncoveredIsEmpty) {
     }
 }
 
+TEST(RowSpans, APoleOfOnePixelStaysOnePixelWide) {
+    const float d[] = {0, 0, 0, 0, 6, 0, 0, 0, 0, 0, 0, 0};
+    for (double shift = 0; shift <= 1; shift += 0.03) {
+        std::vector<RowHit> hits(12);
+        draw_spans({d, d, nullptr, 12, 0}, shift, 0.5, hits);
+        int wide = 0;
+        for (const RowHit& hit : hits)
+            wide += hit.original == 6 ? 1 : 0;
+        EXPECT_EQ(wide, 1) << shift;
+    }
+}
+
+TEST(RowSpans, DepthDecidesWhereEditsMovedThingsPastEachOther) {
+    const float original[] = {0, 0, 4, 4, 0, 0, 0, 0}, edited[] = {9, 9, 2, 2, 9, 9, 9, 9};
+    std::vector<RowHit> hits(8);  // of an eye at 0, where all stay in place, and at 1
+    draw_spans({edited, original, nullptr, 8, 0}, 1, 0.5, hits);
+    EXPECT_EQ(hits[4].disparity, 2.0f);  // the near one, pushed far behind the wall, still hides it
+    EXPECT_EQ(hits[5].disparity, 2.0f);
+}
+
 struct Agreement {
     int pixels = 0, unknown = 0, wrong_surface = 0, wrong_sight = 0, unknown_but_seen = 0;
     double worst_px = 0;
@@ -188,12 +208,30 @@ TEST(TwoWay, GrazingPlanesDoNotTear) {
     scene.margin_px = 100;
     const MiddleView view = scene.view();
     EXPECT_GT(std::abs(view.disparity(101, 50) - view.disparity(100, 50)), 0.5f);
-    const TwoWayDisparity two = two_way_disparity(view, view.disparity, TwoWayParams{}, Exec{});
+    TwoWayParams exact;
+    exact.hidden_px = 0.05;
+    const TwoWayDisparity two = two_way_disparity(view, view.disparity, exact, Exec{});
     for (int x = 0; x < scene.width; ++x) {
+        EXPECT_NE(two.left.sight(x, 50), Sight::hidden) << x;  // by its own next pixel
+        EXPECT_NE(two.right.sight(x, 50), Sight::hidden) << x;
         const auto truth = static_cast<double>(scene.law().at(scene.seen(-1, x, 50).z));
         ASSERT_NE(two.left.sight(x, 50), Sight::unknown) << x;
         EXPECT_NEAR(static_cast<double>(two.left.disparity(x, 50)), truth, 1e-3) << x;
     }
+}
+
+TEST(TwoWay, MasksTellHiddenFromUnknown) {
+    MiddleView view;
+    view.picture_width = 12;
+    view.picture_height = 1;
+    view.disparity = DisparityMap(12, 1, 0.0f);
+    for (int x = 5; x < 8; ++x)
+        view.disparity(x, 0) = 4;
+    const TwoWayDisparity two = two_way_disparity(view, view.disparity, TwoWayParams{}, Exec{});
+    const std::vector<std::uint8_t> left{0, 0, 0, 255, 255, 128, 128, 0, 0, 0, 0, 0};
+    EXPECT_EQ(occlusion_mask(two.left).pixels, left);  // columns 3 and 4: the right eye sees the box there
+    const std::vector<std::uint8_t> right{0, 0, 0, 0, 0, 0, 128, 128, 255, 255, 0, 0};
+    EXPECT_EQ(occlusion_mask(two.right).pixels, right);
 }
 
 TEST(TwoWay, AnOffsetOfEverythingMovesNothingButTheEyes) {

@@ -163,6 +163,70 @@ TEST(Upsample, PlanesWithLinearChangesAreExactToTheirBorders) {
     EXPECT_LT(e.max, 0.05);  // the pull towards 0, three pixels out
 }
 
+/// One object, 96 x 96, seen straight on.
+MiddleView one_object() {
+    MiddleView view;
+    view.picture_width = view.picture_height = 96;
+    view.disparity = Image<float>(96, 96, 0.0f);
+    view.depth_m = Image<float>(96, 96, 2.0f);
+    view.normal = Image<Vec3f>(96, 96, {0, 0, 1});
+    view.object = view.material = Image<std::uint32_t>(96, 96, 0);
+    return view;
+}
+
+TEST(Upsample, AnObjectsOwnOutlinesAreToldByDisparity) {
+    // An arm before its body: 10 px of disparity between them, each with a change of its own.
+    MiddleView view = one_object();
+    Image<float> truth(96, 96);
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            const bool arm = 3 * x > 90 + y;
+            view.disparity(x, y) = arm ? 10 : 0;
+            truth(x, y) = arm ? 0.1f * static_cast<float>(y) : -0.1f * static_cast<float>(x);
+        }
+    }
+    const MiddleView low = reduced(view, 4);
+    const Error e =
+        error(view, upsampled_change(view, low, sampled(view, truth, 4), UpsampleParams{}, Exec{}), truth);
+    fmt::print("own outline: max {:.3f} rms {:.4f}\n", e.max, e.rms);
+    EXPECT_LT(e.max, 0.03);
+    EXPECT_LT(e.rms, 0.002);
+}
+
+TEST(Upsample, AnObjectsOwnEdgesAreToldByNormals) {
+    // Two sides of a box, the edge between samples; one side turns, the other does not.
+    MiddleView view = one_object();
+    Image<float> truth(96, 96);
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 0; x < 96; ++x) {
+            if (x > 52) view.normal(x, y) = {1, 0, 0};
+            truth(x, y) = x > 52 ? 0.5f * static_cast<float>(x - 52) : 0;
+        }
+    }
+    const MiddleView low = reduced(view, 8);
+    const Error e =
+        error(view, upsampled_change(view, low, sampled(view, truth, 8), UpsampleParams{}, Exec{}), truth);
+    fmt::print("own edge: max {:.3f} rms {:.4f}\n", e.max, e.rms);
+    EXPECT_LT(e.max, 0.1);
+    EXPECT_LT(e.rms, 0.02);
+}
+
+TEST(Upsample, NoiseOnAFlatDisparityIsNoSlope) {
+    // A thousandth of a pixel of disparity between samples, a whole pixel of change: as if change followed
+    // disparity a thousandfold. The pixel between them stands out by one pixel.
+    MiddleView view = one_object();
+    Image<float> change(24, 24);
+    for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 96; ++x)
+            view.disparity(x, y) = (x / 4 + y / 4) % 2 == 0 ? 0.2f : -0.2f;
+    for (int y = 0; y < 24; ++y)
+        for (int x = 0; x < 24; ++x)
+            change(x, y) = (x + y) % 2 == 0 ? 10.0f : -10.0f;
+    view.disparity(45, 42) = 1.2f;
+    const Image<float> up = upsampled_change(view, reduced(view, 4), change, UpsampleParams{}, Exec{});
+    EXPECT_LT(std::abs(up(45, 42)), 20.0f);
+}
+
 TEST(Upsample, WhatWasNeverSampledFollowsItsNeighbours) {
     MiddleView view;
     view.picture_width = view.picture_height = 64;
@@ -258,6 +322,24 @@ TEST(WarmStart, AMovedCameraFindsItsSurfacesAgain) {
 
     const DisparityMap map = carried_map({before, first}, before.disparity, {now, second}, {}, Exec{});
     EXPECT_EQ(map, now.disparity);  // no change carries as none
+}
+
+TEST(WarmStart, UncoveredPartsOfAnObjectDoNotTakeWhatHidThem) {
+    // One object: a body at 4 m, an arm before it at 2 m, which has moved away.
+    MiddleView before = one_object();
+    before.depth_m = Image<float>(96, 96, 4.0f);
+    MiddleView now = before;
+    Image<float> change(96, 96, 1.0f);
+    for (int y = 0; y < 96; ++y) {
+        for (int x = 40; x < 50; ++x) {
+            before.depth_m(x, y) = 2;
+            change(x, y) = 7;
+        }
+    }
+    const Camera camera;
+    const Image<float> carried = carried_change({before, camera}, change, {now, camera}, {}, Exec{});
+    EXPECT_NEAR(carried(45, 50), 1 + 6 * 10.0 / 96, 1e-5);  // the mean
+    EXPECT_EQ(carried(60, 50), 1.0f);
 }
 
 TEST(WarmStart, WhatHasNoPastHasTheMeanOrNothing) {

@@ -152,7 +152,7 @@ TEST(DisparityColour, EqualStepsLookEqual) {
         (d < 0 ? left : right) += step;
     }
     fmt::print("steps {:.2f} to {:.2f}, sides {:.1f} and {:.1f}\n", least, most, left, right);
-    EXPECT_LT(most / least, 1.5);
+    EXPECT_LT(most / least, 1.2);
     EXPECT_NEAR(left / right, 1, 0.1);
 }
 
