@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/scene.h"
 #include "raster/view.h"
+#include "stereo/map_columns.h"
 #include "stereo/upsample.h"
 
 namespace obscura {
@@ -30,13 +31,14 @@ class PixelRays {
 
     /// The point at `depth_m` in pixel (x, y) of the map.
     Vec3d point(int x, int y, double depth_m) const {
-        const double u = (column(x) - 0.5 * view_.picture_width) / focal_px_;
-        const double v = (row(y) - 0.5 * view_.picture_height) / focal_px_;
+        const double u = (picture_x(view_, x) - 0.5 * view_.picture_width) / focal_px_;
+        const double v = (picture_y(view_, y) - 0.5 * view_.picture_height) / focal_px_;
         return eye_ + (basis_.forward + basis_.right * u - basis_.up * v) * depth_m;
     }
 
     /// Where the map sees a point: x, y in its pixels, centres at whole numbers; z the depth. Nothing when it
-    /// lies behind.
+    /// lies behind. (The last, narrower block of a reduced map samples up to a few pixels nearer; a start
+    /// need not know.)
     std::optional<Vec3d> place(const Vec3d& world) const {
         const Vec3d d = world - eye_;
         const double z = dot(d, basis_.forward);
@@ -44,16 +46,11 @@ class PixelRays {
         const double x = dot(d, basis_.right) / z * focal_px_ + 0.5 * view_.picture_width + view_.margin_px;
         const double y = -dot(d, basis_.up) / z * focal_px_ + 0.5 * view_.picture_height;
         const int n = view_.reduction;
-        const double first = 0.5 + sampled_pixel(0, n, 8);  // centre of the first sample
+        const double first = 0.5 + sampled_pixel(0, n, n);  // centre of the first sample
         return Vec3d{(x - first) / n, (y - first) / n, z};
     }
 
   private:
-    // Centre of a map's column or row in the picture, pixels of full resolution. The last, narrower block of
-    // a reduced map samples up to a few pixels nearer; a start need not know.
-    double column(int x) const { return row(x) - view_.margin_px; }
-    double row(int y) const { return 0.5 + y * view_.reduction + sampled_pixel(0, view_.reduction, 8); }
-
     Basis basis_;
     Vec3d eye_;
     const MiddleView& view_;
