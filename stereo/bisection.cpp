@@ -38,12 +38,44 @@ Bisection::Bisection(const Mesh& mesh, const MapProjection& projection, SurfaceP
 double Bisection::longest2(const FineTriangle& t) const {
     double longest = 0;
     for (int k = 0; k < 3; ++k) {
-        const MapPoint &p = points[t.point[k]].map, &q = points[t.point[(k + 1) % 3]].map;
-        if (!projection_.in_front(p) || !projection_.in_front(q)) continue;
-        const double dx = p.column() - q.column(), dy = p.row() - q.row();
-        longest = std::max(longest, dx * dx + dy * dy);
+        FineEdge edge;
+        edge.lo = t.point[k];
+        edge.hi = t.point[(k + 1) % 3];
+        measure(edge);
+        longest = std::max(longest, edge.length2);
     }
     return longest;
+}
+
+/// A floor that begins under the camera reaches a million pixels below the map. Its edges are measured, and cut,
+/// where somebody sees them: in the map, and around it by its own size, as halves of halves keep a better shape
+/// than what remains between arbitrary cuts.
+void Bisection::measure(FineEdge& edge) const {
+    const MapPoint &a = points[edge.lo].map, &b = points[edge.hi].map;
+    edge.length2 = 0;
+    edge.middle = 0.5;
+    if (!projection_.in_front(a) || !projection_.in_front(b)) return;
+    constexpr double around = 1;
+    const double from[2] = {a.column(), a.row()}, way[2] = {b.column() - from[0], b.row() - from[1]};
+    const double size[2] = {1.0 * projection_.view.width, 1.0 * projection_.view.height};
+    // Liang and Barsky, "A new concept and method for line clipping", 1984.
+    double begin = 0, end = 1;
+    for (int k = 0; k < 2; ++k) {
+        const double low = -around * size[k] - from[k], high = (1 + around) * size[k] - from[k];
+        if (way[k] == 0) {
+            if (low > 0 || high < 0) end = 0;
+            continue;
+        }
+        begin = std::max(begin, std::min(low / way[k], high / way[k]));
+        end = std::min(end, std::max(low / way[k], high / way[k]));
+    }
+    const double whole2 = way[0] * way[0] + way[1] * way[1];
+    if (end > begin) {
+        edge.length2 = whole2 * (end - begin) * (end - begin);
+        edge.middle = 0.5 * (begin + end);
+    } else {
+        edge.length2 = whole2 * 1e-30;
+    }
 }
 
 bool Bisection::crosses_near(const FineTriangle& t) const {
@@ -73,11 +105,7 @@ std::uint32_t Bisection::add_edge(std::uint32_t p, std::uint32_t q) {
     edge.lo = std::min(p, q);
     edge.hi = std::max(p, q);
     edge.first_use = none;
-    const MapPoint &a = points[edge.lo].map, &b = points[edge.hi].map;
-    if (projection_.in_front(a) && projection_.in_front(b)) {
-        const double dx = a.column() - b.column(), dy = a.row() - b.row();
-        edge.length2 = dx * dx + dy * dy;
-    }
+    measure(edge);
     return static_cast<std::uint32_t>(edges_.size() - 1);
 }
 
@@ -135,7 +163,8 @@ void Bisection::cut(std::uint32_t t, std::vector<std::uint32_t>& changed) {
             use = other == e ? next_use_[use] : edges_[e = other].first_use;
         }
         // Half way on the screen: weights 1/z in space.
-        const double a = points[edges_[e].lo].map.z, b = points[edges_[e].hi].map.z;
+        const double u = edges_[e].middle;
+        const double a = u * points[edges_[e].lo].map.z, b = (1.0 - u) * points[edges_[e].hi].map.z;
         cut_edge(e, a > 0 && b > 0 ? a / (a + b) : 0.5, changed);
         done = e;
     }

@@ -31,7 +31,8 @@ struct FineTriangle {
 struct FineEdge {
     std::uint32_t lo = 0, hi = 0;
     std::uint32_t first_use = 0;
-    double length2 = 0;  ///< on the screen, pixels squared; 0 where an end has no place on it
+    double length2 = 0;   ///< of what the map and some more hold of it, pixels squared; next to 0 elsewhere
+    double middle = 0.5;  ///< of that part, from lo (0) to hi (1), as shares of the way on the screen
 };
 
 /// A vertex between two others, which may lie between others in turn: a + (b - a) share.
@@ -54,7 +55,7 @@ class Bisection {
     std::span<const std::uint32_t> pixels_of(const FineTriangle& t) const {
         return {pixels.data() + t.first_pixel, t.pixels};
     }
-    /// Longest edge on the screen, pixels squared.
+    /// Longest edge on the map, pixels squared.
     double longest2(const FineTriangle& t) const;
     /// Whether the plane that nothing is drawn before cuts the triangle: it has no size on the screen.
     bool crosses_near(const FineTriangle& t) const;
@@ -66,6 +67,7 @@ class Bisection {
 
   private:
     void link_edges();
+    void measure(FineEdge& edge) const;
     void link(std::uint32_t use, std::uint32_t edge);
     void unlink(std::uint32_t use);
     std::uint32_t add_edge(std::uint32_t p, std::uint32_t q);

@@ -42,15 +42,14 @@ void extend_seen_triangles(const SeenChange& seen, std::span<const Triangle> tri
         for (std::size_t i = begin; i < end; ++i) {
             AffineFit fit;
             for (const std::uint32_t pixel : pixels.of(list[i])) {
-                fit.add(pixel % static_cast<std::uint32_t>(seen.view.width()) + 0.5,
-                        pixel / static_cast<std::uint32_t>(seen.view.width()) + 0.5,
-                        static_cast<double>(seen.at(pixel)), 1);
+                const auto width = static_cast<std::uint32_t>(seen.view.width());
+                fit.add({pixel % width + 0.5, pixel / width + 0.5}, static_cast<double>(seen.at(pixel)), 1);
             }
             for (int k = 0; k < 3; ++k) {
                 const MapPoint& at = points[triangles[list[i]].v[k]].map;
                 // A plane over the screen goes on behind the camera, by the same formula.
                 fitted[i].change[k] = at.z == 0 ? 0.5 * (fit.low() + fit.high())
-                                                : fit.at(at.column(), at.row(), seen.slack(at));
+                                                : fit.at({at.column(), at.row()}, seen.slack(at));
             }
         }
     });
@@ -166,7 +165,7 @@ std::vector<AffineFit> object_fits(const SeenChange& seen, std::uint32_t objects
         for (int x = 0; x < seen.view.width(); ++x) {
             const std::uint32_t object = seen.view.object(x, y);
             if (object < objects && seen.view.triangle(x, y) != nothing_seen)
-                fits[object].add(x + 0.5, y + 0.5, static_cast<double>(seen.change_px(x, y)), 1);
+                fits[object].add({x + 0.5, y + 0.5}, static_cast<double>(seen.change_px(x, y)), 1);
         }
     }
     return fits;
@@ -211,7 +210,7 @@ void move_parts_whole(const SeenChange& seen, std::span<const Triangle> triangle
             const bool fitted = object != nothing_seen && !fits[object].empty();
             of.change_px = !fitted ? change_at_place(seen, place)
                            : seen.projection.in_front(place)
-                               ? static_cast<float>(fits[object].at(place.column(), place.row(), 0.0))
+                               ? static_cast<float>(fits[object].at({place.column(), place.row()}, 0.0))
                                : static_cast<float>(0.5 * (fits[object].low() + fits[object].high()));
         }
         points[p].change_px = of.change_px;

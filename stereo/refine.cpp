@@ -1,6 +1,7 @@
 #include "stereo/refine.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/parallel.h"
 #include "stereo/hidden_change.h"
@@ -11,22 +12,29 @@ namespace {
 
 /// Triangles shorter than this are not cut.
 constexpr double least_edge_px = 1.0;
-/// Below this, corners are fitted to the pixels around them: the gather looks further than such triangles go,
-/// and would round off every crease of the map.
+/// Below this, corners follow the pixels of their triangles at once: the gather looks further than such
+/// triangles go, and would round off every crease of the map.
 constexpr double fitted_edge_px = 6.0;
-constexpr int fit_sweeps = 3;
+/// A triangle that touches a smooth map at its corners leaves all of its error on one side; the plane that
+/// fits has half on either side. Misses up to so many tolerances are worth that attempt before a cut.
+constexpr double fit_before_cut = 2.0;
+/// Points that moved less than this share of the tolerance rest until a triangle around them is cut.
+constexpr double rest_share = 0.02;
+
+/// How a point comes to its change: from the map around it, or from the pixels of its triangles.
+enum Follow : std::uint8_t { gathered, moving, resting };
 
 /// State of the rounds.
 class Refinement {
   public:
     Refinement(const SeenChange& seen, const ReprojectParams& params, const Exec& exec, Bisection& surface)
-        : seen_(seen), params_(params), exec_(exec), surface_(surface), missed_(surface.triangles.size(), 0) {
+        : seen_(seen), params_(params), exec_(exec), surface_(surface), missed_(surface.triangles.size()) {
         for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
             if (surface.triangles[t].pixels > 0) shown_.push_back(t);
         }
-        free_.resize(surface.points.size());
-        for (std::size_t p = 0; p < free_.size(); ++p)
-            free_[p] = surface.points[p].seen ? 0 : 1;
+        state_.resize(surface.points.size());
+        for (std::size_t p = 0; p < state_.size(); ++p)
+            state_[p] = surface.points[p].seen ? gathered : moving;
         changed_ = shown_;
     }
 
@@ -43,28 +51,38 @@ class Refinement {
         std::int64_t pixels = 0, missed = 0;
         for (const std::uint32_t t : shown_) {
             pixels += surface_.triangles[t].pixels;
-            missed += missed_[t];
+            missed += missed_[t].pixels;
         }
         stats.within = pixels == 0 ? 1.0 : 1.0 - static_cast<double>(missed) / static_cast<double>(pixels);
         stats.triangles_out = static_cast<std::int64_t>(surface_.triangles.size());
     }
 
   private:
-    /// Shown triangles with a corner that follows its pixels. What it is changes with every round.
-    std::vector<std::uint32_t> followers() const {
-        std::vector<std::uint32_t> list;
-        for (const std::uint32_t t : shown_) {
-            const auto& p = surface_.triangles[t].point;
-            if ((free_[p[0]] | free_[p[1]] | free_[p[2]]) != 0) list.push_back(t);
-        }
-        return list;
+    int free_corners(const FineTriangle& t) const {
+        int count = 0;
+        for (const std::uint32_t p : t.point)
+            count += state_[p] != gathered ? 1 : 0;
+        return count;
     }
 
     void fit() {
-        const std::vector<std::uint32_t> list = followers();
+        std::vector<std::uint8_t> moves(state_.size());
+        for (std::size_t p = 0; p < moves.size(); ++p)
+            moves[p] = state_[p] == moving ? 1 : 0;
+        std::vector<std::uint32_t> list;
+        for (const std::uint32_t t : shown_) {
+            const auto& p = surface_.triangles[t].point;
+            if ((moves[p[0]] | moves[p[1]] | moves[p[2]]) != 0) list.push_back(t);
+        }
         if (list.empty()) return;
-        for (int sweep = 0; sweep < fit_sweeps; ++sweep)
-            fit_points(seen_, list, free_, exec_, surface_);
+        std::vector<float> before(state_.size());
+        for (std::size_t p = 0; p < moves.size(); ++p)
+            before[p] = surface_.points[p].change_px;
+        fit_points(seen_, list, moves, exec_, surface_);
+        for (std::size_t p = 0; p < moves.size(); ++p) {
+            const double moved = static_cast<double>(surface_.points[p].change_px - before[p]);
+            if (moves[p] != 0 && std::fabs(moved) < rest_share * params_.tolerance_px) state_[p] = resting;
+        }
         changed_.insert(changed_.end(), list.begin(), list.end());
     }
 
@@ -73,56 +91,81 @@ class Refinement {
         changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
         parallel_blocks(changed_.size(), 64, exec_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                missed_[changed_[i]] = missed_pixels(seen_, surface_, changed_[i], params_.tolerance_px);
+                missed_[changed_[i]] = miss_of(seen_, surface_, changed_[i], params_.tolerance_px);
         });
     }
 
-    bool cut() {
+    /// What misses and can be cut. Corners that had not been fitted to pixels are to be `freed` instead, or
+    /// as well.
+    std::vector<std::uint32_t> missing(std::vector<std::uint32_t>& freed) const {
         std::vector<std::uint32_t> cut;
-        const std::size_t points = surface_.points.size(), triangles = surface_.triangles.size();
         for (const std::uint32_t t : changed_) {
             const FineTriangle& f = surface_.triangles[t];
-            if (missed_[t] == 0) continue;
+            if (missed_[t].pixels == 0) continue;
+            const bool crosses = surface_.crosses_near(f);
             const double longest2 = surface_.longest2(f);
-            if (longest2 <= fitted_edge_px * fitted_edge_px && !surface_.crosses_near(f)) {
-                for (const std::uint32_t p : f.point)
-                    free_[p] = 1;
+            if (!crosses && free_corners(f) < 3) {
+                const bool fits =
+                    static_cast<double>(missed_[t].worst_px) <= fit_before_cut * params_.tolerance_px;
+                if (fits || longest2 <= fitted_edge_px * fitted_edge_px)
+                    freed.insert(freed.end(), f.point, f.point + 3);
+                if (fits) continue;
             }
-            const bool small = longest2 <= least_edge_px * least_edge_px && !surface_.crosses_near(f);
+            const bool small = longest2 <= least_edge_px * least_edge_px && !crosses;
             if (!small && f.cuts < static_cast<std::uint32_t>(params_.max_splits)) cut.push_back(t);
         }
-        changed_.clear();
-        std::vector<std::uint32_t> cuts_before(cut.size());
-        for (std::size_t i = 0; i < cut.size(); ++i)
-            cuts_before[i] = surface_.triangles[cut[i]].cuts;
-        for (std::size_t i = 0; i < cut.size(); ++i) {
+        return cut;
+    }
+
+    /// One after the other: which of two neighbours is cut first decides how they meet.
+    void cut_all(const std::vector<std::uint32_t>& list) {
+        std::vector<std::uint32_t> cuts(list.size());
+        for (std::size_t i = 0; i < list.size(); ++i)
+            cuts[i] = surface_.triangles[list[i]].cuts;
+        for (std::size_t i = 0; i < list.size(); ++i) {
             if (static_cast<std::int64_t>(surface_.triangles.size()) >= params_.max_triangles) break;
             // A neighbour may have cut it already.
-            if (surface_.triangles[cut[i]].cuts == cuts_before[i]) surface_.cut(cut[i], changed_);
+            if (surface_.triangles[list[i]].cuts == cuts[i]) surface_.cut(list[i], changed_);
         }
+    }
+
+    bool cut() {
+        const std::size_t points = surface_.points.size(), triangles = surface_.triangles.size();
+        std::vector<std::uint32_t> freed;
+        const std::vector<std::uint32_t> list = missing(freed);
+        changed_.clear();
+        cut_all(list);
+        for (const std::uint32_t p : freed)
+            state_[p] = moving;
         gather_seen(seen_, exec_, std::span(surface_.points).subspan(points));
-        free_.resize(surface_.points.size());
-        for (std::size_t p = points; p < free_.size(); ++p)
-            free_[p] = surface_.points[p].seen ? 0 : 1;
+        state_.resize(surface_.points.size());
+        for (std::size_t p = points; p < state_.size(); ++p)
+            state_[p] = surface_.points[p].seen ? gathered : moving;
+
+        for (const std::uint32_t t : changed_) {
+            for (const std::uint32_t p : surface_.triangles[t].point) {
+                if (state_[p] == resting) state_[p] = moving;
+            }
+        }
 
         // What is new, and what lost its pixels to it.
-        missed_.resize(surface_.triangles.size(), 0);
-        for (auto t = static_cast<std::uint32_t>(triangles); t < surface_.triangles.size(); ++t) {
-            if (surface_.triangles[t].pixels > 0) shown_.push_back(t);
-        }
-        std::erase_if(shown_, [&](std::uint32_t t) { return surface_.triangles[t].pixels == 0; });
+        missed_.resize(surface_.triangles.size());
+        for (auto t = static_cast<std::uint32_t>(triangles); t < surface_.triangles.size(); ++t)
+            shown_.push_back(t);
         for (const std::uint32_t t : changed_)
-            missed_[t] = 0;
-        std::erase_if(changed_, [&](std::uint32_t t) { return surface_.triangles[t].pixels == 0; });
-        return surface_.triangles.size() > triangles;
+            missed_[t] = {};
+        const auto shows_nothing = [&](std::uint32_t t) { return surface_.triangles[t].pixels == 0; };
+        std::erase_if(shown_, shows_nothing);
+        std::erase_if(changed_, shows_nothing);
+        return !freed.empty() || surface_.triangles.size() > triangles;
     }
 
     const SeenChange& seen_;
     const ReprojectParams& params_;
     const Exec& exec_;
     Bisection& surface_;
-    std::vector<std::uint8_t> free_;      ///< per point: follows the pixels of its triangles
-    std::vector<std::uint32_t> missed_;   ///< per triangle: pixels beyond the tolerance
+    std::vector<Follow> state_;           ///< per point
+    std::vector<Miss> missed_;            ///< per triangle
     std::vector<std::uint32_t> shown_;    ///< triangles with pixels
     std::vector<std::uint32_t> changed_;  ///< of those, the ones to look at
 };

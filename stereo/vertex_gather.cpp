@@ -37,6 +37,23 @@ double sample_weight(const SeenChange& seen, int x, int y, const Vec2d& place, c
     return near_by * near_by * (1.0 - off_plane * off_plane) * (1.0 - off_depth * off_depth);
 }
 
+/// The scale of the law that made the view's disparity, from its nearest and farthest pixel.
+double disparity_scale(const MiddleView& view) {
+    std::size_t nearest = 0, farthest = 0;
+    bool any = false;
+    const std::vector<float>& z = view.depth_m.pixels;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+        if (view.triangle.pixels[i] == nothing_seen) continue;
+        if (!any || z[i] < z[nearest]) nearest = i;
+        if (!any || z[i] > z[farthest]) farthest = i;
+        any = true;
+    }
+    if (!any || !(z[farthest] > z[nearest])) return 0;
+    const auto inverse = [&](std::size_t i) { return 1.0 / static_cast<double>(z[i]); };
+    const auto disparity = [&](std::size_t i) { return static_cast<double>(view.disparity.pixels[i]); };
+    return (disparity(nearest) - disparity(farthest)) / (inverse(nearest) - inverse(farthest));
+}
+
 }  // namespace
 
 SeenChange seen_change(const Mesh& mesh, const Camera& camera, const MiddleView& view,
@@ -47,8 +64,9 @@ SeenChange seen_change(const Mesh& mesh, const Camera& camera, const MiddleView&
     CHECK(fits(optimised) && fits(view.depth_m) && fits(view.normal) && fits(view.object) &&
           fits(view.triangle));
     CHECK(radius_px >= 0);
-    SeenChange seen{view, map_projection(camera, view), optimised,
-                    Image<std::uint32_t>(view.width(), view.height()), radius_px};
+    SeenChange seen{view,      map_projection(camera, view),
+                    optimised, Image<std::uint32_t>(view.width(), view.height()),
+                    radius_px, disparity_scale(view)};
     parallel_for(static_cast<std::size_t>(view.height()), exec, [&](std::size_t row) {
         const int y = static_cast<int>(row);
         for (int x = 0; x < view.width(); ++x) {
@@ -75,19 +93,21 @@ std::optional<float> gather_change(const SeenChange& seen, const SurfacePoint& p
     const int x1 = std::min(static_cast<int>(std::floor(place.x + reach)), seen.view.width() - 1),
               y1 = std::min(static_cast<int>(std::floor(place.y + reach)), seen.view.height() - 1);
     const Vec3d at = to_double(point.position) - projection.eye;
+    const double own = seen.scale / point.map.z;
     AffineFit fit;
     for (int y = y0; y <= y1; ++y) {
         for (int x = x0; x <= x1; ++x) {
             if (seen.view.triangle(x, y) == nothing_seen) continue;
             if (seen.component(x, y) != point.component && seen.view.object(x, y) != point.object) continue;
             const double weight = sample_weight(seen, x, y, place, at, point.map.z);
-            if (weight > 0)
-                fit.add(x + 0.5 - place.x, y + 0.5 - place.y, static_cast<double>(seen.change_px(x, y)),
-                        weight);
+            if (!(weight > 0)) continue;
+            const auto sample_z = static_cast<double>(seen.view.depth_m(x, y));
+            fit.add({x + 0.5 - place.x, y + 0.5 - place.y, seen.scale / sample_z - own},
+                    static_cast<double>(seen.change_px(x, y)), weight);
         }
     }
     if (fit.empty()) return std::nullopt;
-    return static_cast<float>(fit.at(0, 0, 1.0));
+    return static_cast<float>(fit.at({}, 1.0));
 }
 
 float change_at_place(const SeenChange& seen, const MapPoint& place) {

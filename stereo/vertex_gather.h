@@ -9,7 +9,9 @@
 //    the screen over a flat triangle and known exactly at every vertex; only what edits added has to be
 //    looked up, interpolated and refined. Nothing edited, nothing refined, and no filter blurs the original.
 //  - samples are fitted by a plane instead of averaged: an average is off by the slope wherever samples lie
-//    to one side only, which is at every silhouette and border of the map.
+//    to one side only, which is at every silhouette and border of the map. The plane may lean along original
+//    disparity, too: that is what roundness does, and towards a ball's outline, where it falls ever faster,
+//    no plane over the screen alone could follow.
 //  - depth and normal act as one: how far the point lies from the sample's tangent plane.
 
 #include <optional>
@@ -30,6 +32,7 @@ struct SeenChange {
     Image<float> change_px;          ///< optimised minus original disparity
     Image<std::uint32_t> component;  ///< per pixel; nothing_seen where nothing is
     int radius_px = 2;
+    double scale = 0;  ///< original disparity is scale / z and a constant
     float at(std::uint32_t pixel) const { return change_px.pixels[pixel]; }
     /// How far beyond the range of what a triangle shows its hidden corners may go, times that range. Only
     /// where the map might show them: a triangle that comes from far outside must be free to lean, and there
