@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include "core/parallel.h"
 
@@ -50,46 +51,85 @@ double facing(Vec3f a, Vec3f b) {
     return 0.02 + cosine * cosine;
 }
 
+/// A change that differs by no more around a sample, pixels, needs no model: it is as good as constant.
+constexpr float constant_px = 0.02f;
+
+/// The 3 x 3 samples around (x, y), less what lies beyond the borders.
+struct Window {
+    int x0, y0, x1, y1;  ///< inclusive
+};
+
+class Fitter {
+  public:
+    Fitter(const MiddleView& full, const MiddleView& low, const Image<float>& change, double steepest_change)
+        : low_(low), change_(change), steepest_(steepest_change) {
+        for (int x = 0; x < low.width(); ++x)
+            columns_.push_back(sampled_pixel(x, low.reduction, full.width()));
+        for (int y = 0; y < low.height(); ++y)
+            rows_.push_back(sampled_pixel(y, low.reduction, full.height()));
+    }
+
+    ChangeSample operator()(int x, int y) const {
+        ChangeSample s;
+        s.change = change_(x, y);
+        s.disparity = low_.disparity(x, y);
+        s.object = low_.object(x, y);
+        if (!low_.normal.pixels.empty()) s.normal = low_.normal(x, y);
+        if (s.object == nothing_seen) return s;
+        const Window window{std::max(x - 1, 0), std::max(y - 1, 0), std::min(x + 1, low_.width() - 1),
+                            std::min(y + 1, low_.height() - 1)};
+        if (!constant(window, s)) fit(window, x, y, s);
+        return s;
+    }
+
+  private:
+    bool constant(const Window& w, const ChangeSample& s) const {
+        bool all = true;
+        for (int j = w.y0; j <= w.y1; ++j)
+            for (int i = w.x0; i <= w.x1; ++i)
+                all = all &&
+                      (low_.object(i, j) != s.object || std::abs(change_(i, j) - s.change) <= constant_px);
+        return all;
+    }
+
+    void fit(const Window& w, int x, int y, ChangeSample& s) const {
+        const double scale = place_pull * low_.reduction * low_.reduction;
+        Normal3 equations{.a00 = disparity_pull, .a11 = scale, .a22 = scale};
+        for (int j = w.y0; j <= w.y1; ++j) {
+            const double rows = rows_[static_cast<std::size_t>(j)] - rows_[static_cast<std::size_t>(y)];
+            for (int i = w.x0; i <= w.x1; ++i) {
+                if (low_.object(i, j) != s.object) continue;
+                const double columns =
+                    columns_[static_cast<std::size_t>(i)] - columns_[static_cast<std::size_t>(x)];
+                const auto difference = static_cast<double>(change_(i, j) - s.change);
+                const auto d = static_cast<double>(low_.disparity(i, j) - s.disparity);
+                double weight = 1 / (1 + d * d / (apart * apart));
+                if (!low_.normal.pixels.empty()) weight *= facing(s.normal, low_.normal(i, j));
+                equations.add(weight * d, weight * columns, weight * rows, weight * difference);
+            }
+        }
+        const auto [disparity, column, row] = equations.solved();
+        s.per_disparity = static_cast<float>(std::clamp(disparity, -steepest_, steepest_));
+        s.per_column = static_cast<float>(column);
+        s.per_row = static_cast<float>(row);
+    }
+
+    const MiddleView& low_;
+    const Image<float>& change_;
+    double steepest_;
+    std::vector<int> columns_, rows_;  ///< of full resolution, per sample
+};
+
 }  // namespace
 
 Image<ChangeSample> change_samples(const MiddleView& full, const MiddleView& low, const Image<float>& change,
                                    double steepest_change, const Exec& exec) {
     Image<ChangeSample> samples(low.width(), low.height());
-    const int n = low.reduction;
-    const auto fit = [&](int x, int y) {
-        ChangeSample s;
-        s.change = change(x, y);
-        s.disparity = low.disparity(x, y);
-        s.object = low.object(x, y);
-        if (!low.normal.pixels.empty()) s.normal = low.normal(x, y);
-        if (s.object == nothing_seen) return s;
-        const double scale = place_pull * n * n;
-        Normal3 equations{.a00 = disparity_pull, .a11 = scale, .a22 = scale};
-        bool flat = true;
-        for (int j = std::max(y - 1, 0); j <= std::min(y + 1, low.height() - 1); ++j) {
-            const int rows = sampled_pixel(j, n, full.height()) - sampled_pixel(y, n, full.height());
-            for (int i = std::max(x - 1, 0); i <= std::min(x + 1, low.width() - 1); ++i) {
-                if (low.object(i, j) != s.object) continue;
-                const auto difference = static_cast<double>(change(i, j) - s.change);
-                flat = flat && change(i, j) == s.change;
-                const int columns = sampled_pixel(i, n, full.width()) - sampled_pixel(x, n, full.width());
-                const auto d = static_cast<double>(low.disparity(i, j) - s.disparity);
-                double weight = 1 / (1 + d * d / (apart * apart));
-                if (!low.normal.pixels.empty()) weight *= facing(s.normal, low.normal(i, j));
-                equations.add(weight * d, weight * columns, weight * rows, weight * difference);
-            }
-        }
-        if (flat) return s;
-        const auto [d, column, row] = equations.solved();
-        s.per_disparity = static_cast<float>(std::clamp(d, -steepest_change, steepest_change));
-        s.per_column = static_cast<float>(column);
-        s.per_row = static_cast<float>(row);
-        return s;
-    };
+    const Fitter fit(full, low, change, steepest_change);
     parallel_blocks(static_cast<std::size_t>(low.height()), 8, exec, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y)
+        for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
             for (int x = 0; x < low.width(); ++x)
-                samples(x, static_cast<int>(y)) = fit(x, static_cast<int>(y));
+                samples(x, y) = fit(x, y);
     });
     return samples;
 }

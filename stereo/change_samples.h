@@ -21,7 +21,7 @@ struct ChangeSample {
 
 /// Fits the model to the 3 x 3 samples around each that are of its object: least squares, through the sample
 /// itself, drawn a little towards 0 so that what the samples do not tell (a plane's disparity is linear in
-/// position) is shared out and stays finite.
+/// position) is shared out and stays finite. Where the change hardly varies, there is no model.
 Image<ChangeSample> change_samples(const MiddleView& full, const MiddleView& low, const Image<float>& change,
                                    double steepest_change, const Exec& exec);
 

@@ -25,13 +25,20 @@ double step(const SpanRow& row, int x) {
     return static_cast<double>(row.original[x + 1]) - static_cast<double>(row.original[x]);
 }
 
+/// The first pixel whose centre is at or after x >= 0.
+int column_from(double x) {
+    const int below = static_cast<int>(x);
+    return below + (below < x ? 1 : 0);
+}
+
 /// Pixel centres from a on, exclusive of b; the nearest stays.
 void draw_segment(SpanPoint a, SpanPoint b, std::span<RowHit> hits) {
     // Seen from behind: the surface folds over. It is drawn all the same; its front is nearer.
     if (b.x < a.x) std::swap(a, b);
-    const double first = std::max(0.0, std::ceil(a.x));
-    const double end = std::min(static_cast<double>(hits.size()), std::ceil(b.x));
-    for (double x = first; x < end; x += 1) {
+    const auto width = static_cast<int>(hits.size());
+    if (!(b.x > 0 && a.x < width)) return;
+    const int end = column_from(std::min(b.x, static_cast<double>(width)));
+    for (int x = column_from(std::max(a.x, 0.0)); x < end; ++x) {
         const double t = (x - a.x) / (b.x - a.x);
         const auto original = static_cast<float>(a.original + t * (b.original - a.original));
         RowHit& hit = hits[static_cast<std::size_t>(x)];
