@@ -1,7 +1,5 @@
 #include "stereo/v_cycle.h"
 
-#include <chrono>
-
 #include "core/error.h"
 #include "core/parallel.h"
 #include "stereo/dense_cholesky.h"
@@ -189,22 +187,6 @@ class AscentSweep {
     GridPlane zeros_;
     RowRing z_, interpolated_, scratch_;
     int next_;
-};
-
-/// Adds the time since `start` to a level's.
-class LevelClock {
-  public:
-    LevelClock(LevelSeconds& seconds, std::size_t level)
-        : seconds_(seconds), level_(level), start_(std::chrono::steady_clock::now()) {}
-    ~LevelClock() {
-        if (level_ >= seconds_.size()) return;
-        seconds_[level_] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-  private:
-    LevelSeconds& seconds_;
-    std::size_t level_;
-    std::chrono::steady_clock::time_point start_;
 };
 
 }  // namespace

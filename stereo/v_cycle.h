@@ -6,6 +6,7 @@
 // only corrected (see grid_hierarchy.h). Each half of a cycle is one pass over a level: sweep, residual and
 // restriction going down, interpolation and sweep going up, row by row through a few rows of cache.
 
+#include <chrono>
 #include <vector>
 
 #include "stereo/grid_hierarchy.h"
@@ -22,6 +23,22 @@ GridVector grid_vector(const GridHierarchy& hierarchy);
 
 /// Seconds spent per level, added to; empty: not measured.
 using LevelSeconds = std::vector<double>;
+
+/// Adds the time that it lives to a level's.
+class LevelClock {
+  public:
+    LevelClock(LevelSeconds& seconds, std::size_t level)
+        : seconds_(seconds), level_(level), start_(std::chrono::steady_clock::now()) {}
+    ~LevelClock() {
+        if (level_ >= seconds_.size()) return;
+        seconds_[level_] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    LevelSeconds& seconds_;
+    std::size_t level_;
+    std::chrono::steady_clock::time_point start_;
+};
 
 /// r = r_before - alpha q, then z = V r, where V is one V-cycle from zero. Of the cells only: r.hubs must be
 /// up to date already. `r` may not be `r_before`. Returns the dot product r . z, hubs included. The levels'
