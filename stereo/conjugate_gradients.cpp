@@ -158,22 +158,30 @@ class ErrorEstimate {
 
 }  // namespace
 
-double norm(const GridVector& r, const Exec& exec) {
-    std::vector<double> part(tasks_of(r.cells.height()), 0.0);
+double residual_norm(const DisparitySystem& s, const DisparityMap& x, const Exec& exec) {
+    Image<double> of_sets;
+    if (!s.sets.empty()) {
+        of_sets = Image<double>(s.width(), s.height());
+        set_residuals(s, x, [&](int i, int j, double value) { of_sets(i, j) += value; });
+    }
+    std::vector<double> part(tasks_of(s.height()), 0.0);
     parallel_for(part.size(), exec, [&](std::size_t task) {
         const int y0 = static_cast<int>(task) * rows_per_task;
-        for (int y = y0; y < std::min(y0 + rows_per_task, r.cells.height()); ++y) {
+        std::vector<double> row(static_cast<std::size_t>(s.width()));
+        for (int y = y0; y < std::min(y0 + rows_per_task, s.height()); ++y) {
+            residual_row(s, x, y, row.data());
             double sum = 0;
-            for (int x = 0; x < r.cells.width(); ++x)
-                sum += static_cast<double>(r.cells.row(y)[x]) * static_cast<double>(r.cells.row(y)[x]);
+            for (int i = 0; i < s.width(); ++i) {
+                double& r = row[static_cast<std::size_t>(i)];
+                if (!s.sets.empty()) r += of_sets(i, y);
+                sum += r * r;
+            }
             part[task] += sum;
         }
     });
     double sum = 0;
     for (const double value : part)
         sum += value;
-    for (const double value : r.hubs)
-        sum += value * value;
     return std::sqrt(sum);
 }
 
@@ -211,14 +219,9 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
     const auto start = std::chrono::steady_clock::now();
     Work w(h);
     start_residual(s, h, x, exec, w.r[0]);
-    const double norm0 = norm(w.r[0], exec);
-    if (!(norm0 > 0)) {
-        report.converged = true;
-        return;
-    }
     const auto unknowns = static_cast<double>(s.width()) * static_cast<double>(s.height());
     ErrorEstimate largest(h.hubs.size()), root_mean_square(h.hubs.size());
-    double alpha = 0, rz_before = 0;
+    double alpha = 0, rz_before = 0, rz_first = 0;
     report.converged = false;
     while (!report.converged && report.iterations < params.max_iterations) {
         const GridVector& before = w.r[w.newest_r];
@@ -230,13 +233,19 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
         const double beta = stationary || report.iterations == 0 ? 0.0 : rz / rz_before;
         rz_before = rz;
         const DirectionSums sums = new_direction(h, w, beta, alpha, exec);
-        if (!(sums.curvature > 0) || !(rz > 0)) break;
+        if (!(sums.curvature > 0) || !(rz > 0)) {
+            // Nothing is left to do, down to the last bit.
+            report.converged = !(rz > 0);
+            alpha = 0;
+            break;
+        }
         alpha = stationary ? 1.0 : rz / sums.curvature;
         ++report.iterations;
         SolveStep step;
         step.error_max_px = largest.after(alpha * sums.largest);
         step.error_rms_px = root_mean_square.after(alpha * std::sqrt(sums.square / unknowns));
-        step.residual = std::sqrt(rz);
+        if (report.iterations == 1) rz_first = rz;
+        step.residual = std::sqrt(rz / rz_first);
         step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         report.steps.push_back(step);
         report.error_max_px = step.error_max_px;

@@ -15,8 +15,8 @@ namespace obscura {
 void start_residual(const DisparitySystem& system, const GridHierarchy& hierarchy, const DisparityMap& x,
                     const Exec& exec, GridVector& r);
 
-/// sqrt of the sum of squares.
-double norm(const GridVector& r, const Exec& exec);
+/// |b - A x|, Euclidean, in double.
+double residual_norm(const DisparitySystem& system, const DisparityMap& x, const Exec& exec);
 
 /// Adds to `x` what lies between it and the minimiser, until the estimated error is within the tolerances.
 /// `stationary`: V-cycles without conjugate gradients. Appends to report.steps and fills its estimates,

@@ -35,6 +35,13 @@ struct MatchingSet {
     std::vector<MatchedPixel> members;  ///< ascending in (y, x), no pixel twice
 };
 
+/// What one edit's anchor asks for, pixel by pixel. For reports: the energy reads the sums of all of them.
+struct AnchorArea {
+    std::string name;                  ///< of the edit
+    float weight = 1;                  ///< c2 times the edit's own
+    std::vector<MatchedPixel> pixels;  ///< target: the wanted disparity
+};
+
 struct DisparitySystem {
     DisparityMap original;       ///< D
     DisparityMap start;          ///< D~: edits applied pixel by pixel, conflicts and all
@@ -44,8 +51,9 @@ struct DisparitySystem {
     Image<float> anchor_value;   ///< weighted mean of the anchors' values; read where the weight is > 0
     Image<std::uint8_t> valid;   ///< 1, or 0 for pixels outside of the system
     std::vector<MatchingSet> sets;
-    float gradient_weight = 1;  ///< c1 > 0
-    float epsilon = 1e-4f;      ///< > 0
+    std::vector<AnchorArea> anchors;  ///< what anchor_weight and anchor_value are made of; may be empty
+    float gradient_weight = 1;        ///< c1 > 0
+    float epsilon = 1e-4f;            ///< > 0
     int width() const { return original.width; }
     int height() const { return original.height; }
 };

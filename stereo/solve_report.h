@@ -1,6 +1,7 @@
 #pragma once
 // What a solver says of its work. Non-convergence is data.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,7 @@ namespace obscura {
 
 /// One iteration (or, for the cascade, one level).
 struct SolveStep {
-    double residual = 0;      ///< |b - A x| / |b - A start|, Euclidean, as the recurrence has it
+    double residual = 0;  ///< before the step: sqrt(r . V r), V one V-cycle, against the first iteration's
     double error_max_px = 0;  ///< estimate of the largest error of x
     double error_rms_px = 0;  ///< estimate of the root mean square error
     double seconds = 0;       ///< since the solve began
@@ -19,20 +20,24 @@ struct LevelTime {
     double seconds = 0;  ///< spent on this level, all threads' wall time
 };
 
-/// A term that the solution could not satisfy.
+/// What an edit asked for and did not get.
 struct Unsatisfied {
-    std::string name;       ///< of the edit
-    double wanted_px = 0;   ///< mean of what the term asks for: disparity, or difference to the source
-    double reached_px = 0;  ///< mean of what it got
-    double worst_px = 0;    ///< largest |reached - wanted|
-    std::string against;    ///< name of the edit that pulls the other way hardest, or empty: the
-                            ///< gradients around it
+    std::string name;         ///< of the edit; empty: gradients, those of the picture as edited
+    double wanted_px = 0;     ///< mean of what was asked for: disparity, or difference to the source
+    double reached_px = 0;    ///< mean of what came out
+    double worst_px = 0;      ///< largest |reached - wanted| of a pixel
+    std::int64_t pixels = 0;  ///< that miss by more than unsatisfied_px
+    std::string against;      ///< the edit that asks most of the same pixels for something else; empty: what
+                              ///< is around them
 };
+
+/// What is missed by less is no contradiction.
+constexpr double unsatisfied_px = 0.5;
 
 struct SolveReport {
     bool converged = false;
     int iterations = 0;
-    double residual = 0;      ///< relative, of the true residual in double, at the end
+    double residual = 0;      ///< |b - A x| / |b - A start| at the end, Euclidean, in double
     double error_max_px = 0;  ///< estimates at the end
     double error_rms_px = 0;
     double setup_s = 0, solve_s = 0;

@@ -3,6 +3,7 @@
 
 #include "core/isa.h"
 #include "stereo/disparity_system.h"
+#include "stereo/grid_hierarchy.h"
 #include "stereo/solve_report.h"
 
 namespace obscura {
@@ -19,9 +20,10 @@ struct SolverParams {
     double tolerance_max_px = 0.05;  ///< stop when both error estimates are below; multigrid, fmg, vcycle
     double tolerance_rms_px = 0.02;
     int max_iterations = 60;
-    int sweeps = 10;            ///< cascade: Jacobi sweeps per level
-    bool printed_sign = false;  ///< cascade: the upsampling formula with the sign as printed
-    bool half_storage = false;  ///< 16-bit floats where vectors are stored; arithmetic stays 32-bit
+    int sweeps = 10;               ///< cascade: Jacobi sweeps per level
+    bool tell_unsatisfied = true;  ///< fill report.unsatisfied
+    bool half_storage = false;     ///< cascade: maps as 16-bit floats between sweeps, as the paper keeps them
+    bool printed_sign = false;     ///< cascade: the upsampling formula with the sign as printed
 };
 
 struct Solution {
@@ -29,9 +31,20 @@ struct Solution {
     SolveReport report;
 };
 
+/// What a later solve can use again: the levels of the matrix, for as long as only what edits ask for changes
+/// and not which pixels or weights; and memory.
+struct SolverCache {
+    DisparitySystem matrix_of;  ///< whose matrix the levels are of; without maps and values
+    GridHierarchy levels;
+};
+
 /// Minimises the system's energy. `initial`: where to start from (last frame's map, or the one before an
-/// edit); empty: system.start. The same bits for any exec.
+/// edit); empty: system.start. `cache`: of earlier solves of one size, or null. The same bits for any exec,
+/// with or without a cache.
 Solution solve(const DisparitySystem& system, const SolverParams& params, const Exec& exec,
-               const DisparityMap& initial = {});
+               const DisparityMap& initial = {}, SolverCache* cache = nullptr);
+
+/// Edits that `x` leaves unsatisfied by more than unsatisfied_px somewhere, worst first.
+std::vector<Unsatisfied> unsatisfied(const DisparitySystem& system, const DisparityMap& x);
 
 }  // namespace obscura
