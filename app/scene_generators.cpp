@@ -248,6 +248,40 @@ ShapeSpec house_shape() {
         });
 }
 
+ShapeSpec figure_shape() {
+    using P = FigureParams;
+    return shape_of<P>("figure", "A person in a coat, facing +z. Slots: coat, trim, skin, hair, boot, eye.",
+                       {knob("height_m", &P::height_m, 0.05, 100, "Without the hat."),
+                        knob("girth", &P::girth, 0.3, 3, "Width and depth are scaled by it."),
+                        knob("hat", &P::hat, 0, 2, "0 none, 1 pointed, 2 brimmed."),
+                        knob("left_arm_deg", &P::left_arm_deg, 0, 170, "Raised sideways from hanging down."),
+                        knob("right_arm_deg", &P::right_arm_deg, 0, 170, "The same.")},
+                       figure, [](const P&) { return 60000.0; });
+}
+
+ShapeSpec lion_head_shape() {
+    using P = LionHeadParams;
+    return shape_of<P>(
+        "lion_head",
+        "A lion's head on a round plate whose back is at z = 0, a ring in its mouth. Slots: stone, dark, "
+        "ring.",
+        {knob("size_m", &P::size_m, 0.01, 100, "Diameter of the plate; the mane reaches a little beyond.")},
+        lion_head, [](const P&) { return 60000.0; });
+}
+
+ShapeSpec cliffs_shape() {
+    using P = CliffsParams;
+    return shape_of<P>(
+        "cliffs", "A rocky coast along x, the sea (y = 0) on its +z side. Slots: rock, layer, grass, sand.",
+        {knob("width_m", &P::width_m, 1, 10000, "Along the shore."),
+         knob("height_m", &P::height_m, 1, 1000, "Of the face."),
+         knob("meander_m", &P::meander_m, 0, 1000, "How far headlands and bays leave the straight shore."),
+         knob("roughness", &P::roughness, 0, 3, "Of the face."),
+         knob("columns", &P::columns, 2, 4096, "Squares along the shore."),
+         knob("rows", &P::rows, 2, 4096, "Squares from the sea to the plateau."), seed_knob<P>()},
+        cliffs, [](const P& p) { return 2.0 * p.columns * p.rows + 6.0 * (p.columns + p.rows); });
+}
+
 ShapeSpec city_shape() {
     const auto params = [](const SceneTable& t) {
         CityParams p;
@@ -284,9 +318,10 @@ ShapeSpec city_shape() {
 }  // namespace
 
 std::vector<ShapeSpec> generator_shapes() {
-    return {arcade_shape(),     stairs_shape(), fence_shape(),        tree_shape(),     lamp_post_shape(),
-            planter_shape(),    hedge_shape(),  bench_shape(),        fountain_shape(), pavement_shape(),
-            roof_tiles_shape(), window_shape(), pierced_wall_shape(), house_shape(),    city_shape()};
+    return {arcade_shape(),     stairs_shape(),    fence_shape(),        tree_shape(),     lamp_post_shape(),
+            planter_shape(),    hedge_shape(),     bench_shape(),        fountain_shape(), pavement_shape(),
+            roof_tiles_shape(), window_shape(),    pierced_wall_shape(), house_shape(),    city_shape(),
+            figure_shape(),     lion_head_shape(), cliffs_shape()};
 }
 
 }  // namespace obscura

@@ -72,6 +72,12 @@ std::vector<KeySpec> solver_keys() {
 std::vector<KeySpec> energy_keys() {
     static const EditParams d;
     return {
+        choice_key(
+            "interfaces", {"original", "edited"},
+            "What is wanted where two objects meet. original: the step that is there unedited, so that "
+            "neighbours follow an edit. edited: the step between the objects as edited, so that they "
+            "part; interface edits keep the original where it matters.")
+            .or_else("original"),
         number_key("gradient_weight", "Of every wanted difference between neighbours.")
             .in(positive_weight)
             .or_else(d.gradient_weight),
@@ -102,9 +108,14 @@ std::vector<KeySpec> conflict_keys() {
                    "Anchors of what the picture's sides cut in front of the screen; 0: leave it.")
             .in(weight_range)
             .or_else(d.window_weight),
+        boolean_key("window_inherited", "Also what the sides cut as badly without any edit.")
+            .or_else(d.window_inherited),
         boolean_key("reset_inversions",
                     "Where an edit would turn near and far around, the original difference is wanted.")
             .or_else(d.reset_inversions),
+        boolean_key("limit_folds",
+                    "Depth that would rise so steeply that an eye looks behind it is kept from folding.")
+            .or_else(d.limit_folds),
     };
 }
 
@@ -145,13 +156,20 @@ std::vector<VariantSpec> edit_variants() {
                    "Scales disparity about the target's centre: 0 flattens, 1 changes nothing, 2 doubles.")
             .in({0, 100})
             .need()
-            .animate()};
+            .animate(),
+        boolean_key("together",
+                    "The target is one thing made of several objects: it has one centre, and borders inside "
+                    "it are scaled, too.")
+            .or_else(false)};
     std::vector<KeySpec> second{
-        target_key("second_objects", "The other side of the border, as objects."),
+        target_key("second_objects",
+                   "The other side of the border, as objects; anything when there is no second."),
         target_key("second_materials", "The same, as materials."),
         file_key("mask",
-                 "Instead of objects and materials: a picture, stretched over the frame; white keeps, black "
-                 "does not. PNG, PBM or PGM without colours, inside the scene's folder."),
+                 "A picture, stretched over the frame: white counts, black does not. With objects or "
+                 "materials it limits these, alone it keeps depth inside objects, too. PNG, PBM or PGM "
+                 "without colours, inside the scene's folder."),
+        boolean_key("keep", "false: lets go of what interfaces = \"original\" would keep.").or_else(true),
     };
     const auto point = [](const char* px, const char* px_doc, const char* m, const char* m_doc) {
         return std::vector<KeySpec>{vec2_key(px, px_doc).in({-1e6, 1e6}).animate(),
@@ -161,7 +179,9 @@ std::vector<VariantSpec> edit_variants() {
         {"roundness", "More or less depth within the target.", target_keys() + std::move(roundness)},
         {"anchor", "Holds the target at its own disparity (with its roundness), or at an offset from it.",
          target_keys() + offset_keys("Towards the viewer when positive; 0 when neither is given.")},
-        {"interface", "Keeps the original depth between two targets where they meet, or under a mask.",
+        {"interface",
+         "Keeps the original depth where two targets meet, or one and anything, or under a mask; or lets it "
+         "go.",
          target_keys() + std::move(second)},
         {"match", "What surrounds the destination takes the disparity of the source.",
          point("source_px", "Point of the picture whose disparity is taken: right, down from its corner.",
@@ -172,7 +192,9 @@ std::vector<VariantSpec> edit_variants() {
              std::vector<KeySpec>{
                  number_key("radius_px", "Of the disc that moves along; 0: the destination's whole object.")
                      .in({0, 1e5})
-                     .or_else(0.0)}},
+                     .or_else(0.0),
+                 boolean_key("any_object", "With radius_px: other objects within it move along, too.")
+                     .or_else(false)}},
     };
 }
 

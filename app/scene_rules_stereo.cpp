@@ -90,19 +90,10 @@ void check_targets(const SceneTable& edit, const Known& known) {
     const std::string who = fmt::format("edit '{}'", text(edit, "id"));
     const bool first = edit.has("objects") || edit.has("materials");
     const bool second = edit.has("second_objects") || edit.has("second_materials");
-    if (edit.has("mask")) {
-        if (first || second)
-            fail_at(place_of(edit, "mask"), known.sources,
-                    "give either 'mask' or objects and materials, not both");
-    } else if (!first) {
-        fail_at(place, known.sources,
-                fmt::format("{} needs 'objects' or 'materials'{}", who,
-                            type == "interface" ? ", or a 'mask'" : ""));
-    } else if (type == "interface" && !second) {
-        fail_at(place, known.sources,
-                fmt::format("{} needs 'second_objects' or 'second_materials': the other side of the border",
-                            who));
-    }
+    if (first || (type == "interface" && (second || edit.has("mask")))) return;
+    fail_at(
+        place, known.sources,
+        fmt::format("{} needs 'objects' or 'materials'{}", who, type == "interface" ? ", or a 'mask'" : ""));
 }
 
 // --- numbers

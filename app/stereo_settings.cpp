@@ -65,6 +65,10 @@ EditParams edit_params_of(const SceneTable& table, const StereoRig& rig, int wid
     p.epsilon = number(table, "regularization");
     p.comfort_weight = number(table, "comfort_weight");
     p.window_weight = number(table, "window_weight");
+    p.interfaces =
+        text(table, "interfaces") == "edited" ? InterfaceGradients::edited : InterfaceGradients::original;
+    p.window_inherited = boolean(table, "window_inherited");
+    p.limit_folds = boolean(table, "limit_folds");
     p.reset_inversions = boolean(table, "reset_inversions");
     // Limits count from the screen, either way; in front is positive.
     if (table.has("comfort_near_percent")) {
@@ -153,7 +157,7 @@ double offset_of(const Reader& r, const SceneTable& edit) {
     return 0;
 }
 
-/// Pixel of a matching edit's point; nothing when it is out of the picture.
+/// Pixel of a matching edit's point, which may be outside of the picture; nothing behind the camera.
 std::optional<Vec2d> point_of(const Reader& r, const SceneTable& edit, const std::string& name) {
     if (edit.has(name + "_px")) return vec2(edit, name + "_px") * r.px;
     const Vec3d world = vec3(edit, name + "_m");
@@ -162,7 +166,6 @@ std::optional<Vec2d> point_of(const Reader& r, const SceneTable& edit, const std
     const Vec3d forward = normalize(camera.look_at - camera.eye);
     if (dot(forward, world - camera.eye) <= camera.near_m) return std::nullopt;
     const Vec3d p = to_map_space(camera_view(camera, render.width, render.height), world);
-    if (!(p.x >= 0 && p.x < render.width && p.y >= 0 && p.y < render.height)) return std::nullopt;
     return Vec2d{p.x, p.y};
 }
 
@@ -181,16 +184,19 @@ WeightFade fade_of(const SceneTable& edit) {
     return fade;
 }
 
-/// What the edit asks for; nothing when a point of it is out of the picture.
+/// What the edit asks for; nothing when a point of it is behind the camera.
 std::optional<decltype(StereoEdit::what)> wish_of(const Reader& r, const SceneTable& edit) {
     const std::string& type = text(edit, "type");
-    if (type == "roundness") return RoundnessEdit{target_of(r, edit, ""), number(edit, "roundness")};
+    if (type == "roundness")
+        return RoundnessEdit{target_of(r, edit, ""), number(edit, "roundness"), boolean(edit, "together")};
     if (type == "anchor") return AnchorEdit{target_of(r, edit, ""), offset_of(r, edit)};
     if (type == "interface")
-        return InterfaceEdit{target_of(r, edit, ""), target_of(r, edit, "second_"), mask_of(r, edit)};
+        return InterfaceEdit{target_of(r, edit, ""), target_of(r, edit, "second_"), mask_of(r, edit),
+                             boolean(edit, "keep")};
     const auto source = point_of(r, edit, "source"), destination = point_of(r, edit, "destination");
     if (!source || !destination) return std::nullopt;
-    return MatchEdit{*source, *destination, offset_of(r, edit), number(edit, "radius_px") * r.px};
+    return MatchEdit{*source, *destination, offset_of(r, edit), number(edit, "radius_px") * r.px,
+                     boolean(edit, "any_object")};
 }
 
 void add_edit(Reader& r, const SceneTable& edit) {
@@ -202,7 +208,7 @@ void add_edit(Reader& r, const SceneTable& edit) {
     auto wish = wish_of(r, edit);
     if (!wish) {
         r.settings.notes.push_back(fmt::format(
-            "edit '{}' does nothing in this frame: its source or destination is out of the picture",
+            "edit '{}' does nothing in this frame: its source or destination is behind the camera",
             result.name));
         return;
     }

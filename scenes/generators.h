@@ -165,4 +165,31 @@ struct HouseParams {
 };
 GeneratedModel house(const HouseParams& params);
 
+/// A person in a coat, of turned and rounded pieces.
+struct FigureParams {
+    double height_m = 1.7;                         ///< without the hat
+    double girth = 1;                              ///< width and depth are scaled by it
+    int hat = 0;                                   ///< 0 none, 1 pointed, 2 brimmed
+    double left_arm_deg = 12, right_arm_deg = 12;  ///< raised sideways from hanging down
+};
+GeneratedModel figure(const FigureParams& params);
+
+/// A lion's head on a round plate whose back is the plane z = 0, a ring in its mouth; its middle at the
+/// origin.
+struct LionHeadParams {
+    double size_m = 0.7;  ///< diameter of the plate; the mane reaches a little beyond
+};
+GeneratedModel lion_head(const LionHeadParams& params);
+
+/// A rocky coast along X with the sea at y = 0 on its +Z side: beach, a face with a ledge, a plateau inland.
+struct CliffsParams {
+    double width_m = 160;           ///< along the shore
+    double height_m = 36;           ///< of the face
+    double meander_m = 14;          ///< how far headlands and bays leave the straight shore
+    double roughness = 1;           ///< of the face
+    int columns = 320, rows = 160;  ///< squares along the shore and from sea to plateau
+    int seed = 1;
+};
+GeneratedModel cliffs(const CliffsParams& params);
+
 }  // namespace obscura

@@ -47,6 +47,9 @@ TEST(Generators, AreClosedOutwardAndReproducible) {
     expect_good("pierced_wall", pierced_wall({}), "4637b7c999678ff5");
     expect_good("city", city({}), "faf86b00a6946c34");
     expect_good("house", house({}), "808da70d9f92aac7");
+    expect_good("figure", figure({}), "daf004305870bbc2");
+    expect_good("lion_head", lion_head({}), "ac0d9ec0a0bdbd1b");
+    expect_good("cliffs", cliffs({}), "ae59a1b6fabe6ae2");
 }
 
 TEST(Patterns, AreWhatTheFilesHold) {
