@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "app/frame_shadows.h"
@@ -10,34 +9,13 @@
 #include "app/stopwatch.h"
 #include "core/error.h"
 #include "core/parallel.h"
+#include "stereo/eye_mesh.h"
 
 namespace obscura {
 namespace {
 
 float side_of(Eye eye) {
     return eye == Eye::left ? 1.0f : -1.0f;
-}
-
-/// What setup reads of the moved triangles. Moving bends faces: each triangle has a plane of its own.
-Mesh seen_mesh(const Mesh& mesh, const std::vector<Vec3f>& seen, const Exec& exec) {
-    Mesh m;
-    m.positions = seen;
-    m.triangles = mesh.triangles;
-    m.component = mesh.component;
-    m.components = mesh.components;
-    m.face.resize(mesh.triangles.size());
-    std::iota(m.face.begin(), m.face.end(), 0u);
-    m.faces.resize(mesh.triangles.size());
-    parallel_blocks(mesh.triangles.size(), 8192, exec, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t t = begin; t < end; ++t) {
-            const Triangle& tri = mesh.triangles[t];
-            const Vec3d p = to_double(seen[tri.v[0]]);
-            const Vec3d n = cross(to_double(seen[tri.v[1]]) - p, to_double(seen[tri.v[2]]) - p);
-            const Vec3d unit = normalize(n, Vec3d{0, 0, 1});
-            m.faces[t] = {unit, -dot(unit, p)};
-        }
-    });
-    return m;
 }
 
 /// Whether two triangles have a corner in common, by position.
@@ -103,7 +81,7 @@ TileScene eye_tiles(const Scene& scene, const MovedMesh& moved, const SurfaceTab
     CHECK(stage.seen.size() == moved.mesh.positions.size());
     const RenderSettings& render = scene.render;
     TileScene t = tile_scene(scene, render.width, render.height, render.samples);
-    set_up_triangles(seen_mesh(moved.mesh, stage.seen, exec), exec, stage.scratch, t);
+    set_up_triangles(eye_mesh(moved, stage.seen, exec), exec, stage.scratch, t);
     t.mesh = &moved.mesh;
     t.surface = surface_mesh(moved.mesh, tables);
     // Without triangles nothing is read, but the sky has its place.

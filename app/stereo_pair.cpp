@@ -1,0 +1,183 @@
+#include "app/stereo_pair.h"
+
+#include <cmath>
+#include <utility>
+
+#include "app/scene_build.h"
+#include "app/stereo_view.h"
+#include "app/stopwatch.h"
+#include "core/error.h"
+#include "stereo/map_projection.h"
+#include "stereo/upsample.h"
+#include "stereo/warm_start.h"
+
+namespace obscura {
+namespace {
+
+bool stopped(const StereoPairOptions& options) {
+    const std::atomic<bool>* cancel = options.channels.cancel;
+    return cancel != nullptr && cancel->load(std::memory_order_relaxed);
+}
+
+MiddleView view_of(const Scene& scene, const StereoSettings& settings, const Exec& exec, FrameCache& cache) {
+    if (settings.margin_px != auto_margin)
+        return middle_view(scene, settings.rig, settings.margin_px, exec, cache);
+    MiddleView narrow = middle_view(scene, settings.rig, 0, exec, cache);
+    const int margin = automatic_margin(narrow, settings.edits);
+    return margin == 0 ? std::move(narrow) : middle_view(scene, settings.rig, margin, exec, cache);
+}
+
+std::vector<std::string> object_names(const Mesh& mesh) {
+    std::vector<std::string> names;
+    for (const Object& object : mesh.objects)
+        names.push_back(object.name);
+    return names;
+}
+
+/// Where the solve starts: last frame's change on this frame's surfaces, or nothing.
+DisparityMap start_of(const StereoCache& cache, const MiddleView& view, const Camera& camera,
+                      const Exec& exec) {
+    if (!cache.last) return {};
+    const SeenFrame before{cache.last->view, cache.last->camera}, now{view, camera};
+    return carried_map(before, cache.last->solution, now, WarmStartParams{}, exec);
+}
+
+/// The system at its own resolution, solved, and the map at full resolution.
+void solve_map(const Scene& scene, const StereoSettings& settings, const Exec& exec, const StereoCache& cache,
+               StereoPair& pair) {
+    const Stopwatch editing;
+    const bool lower = settings.map_scale > 1;
+    pair.solved_view = lower ? reduced(pair.view, settings.map_scale) : MiddleView{};
+    const MiddleView& view = lower ? pair.solved_view : pair.view;
+    pair.edited = edited_system(view, settings.edits, settings.edit, object_names(scene.mesh), exec);
+    pair.times.edit_s = editing.seconds();
+
+    const Stopwatch solving;
+    const DisparityMap start = start_of(cache, view, scene.camera, exec);
+    pair.warm = !start.pixels.empty();
+    // For want of a solver: the edits pixel by pixel.
+    pair.solution.disparity = pair.edited.system.start;
+    pair.times.solve_s = solving.seconds();
+
+    const Stopwatch upsampling;
+    pair.optimised =
+        lower ? upsampled_solution(pair.view, view, pair.solution.disparity, UpsampleParams{}, exec)
+              : pair.solution.disparity;
+    pair.times.upsample_s = upsampling.seconds();
+}
+
+void check_bytes(const Scene& scene, const StereoSettings& settings, std::int64_t triangles,
+                 StereoPair& pair) {
+    MemoryEstimate memory = estimate_memory(scene);
+    memory.frame += stereo_bytes(scene, settings, triangles);
+    pair.bytes = memory.total();
+    check_memory(memory, scene.limits, "the stereo pair");
+}
+
+/// Change of disparity at a place of a map, between four pixels of one object; nothing elsewhere.
+std::optional<double> change_between(const MiddleView& view, const DisparityMap& optimised,
+                                     std::uint32_t object, double depth_m, double column, double row) {
+    const double x = column - 0.5, y = row - 0.5;
+    if (!(x >= 0 && y >= 0 && x < view.width() - 1 && y < view.height() - 1)) return std::nullopt;
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    double sum = 0;
+    for (int k = 0; k < 4; ++k) {
+        const int i = x0 + (k & 1), j = y0 + (k >> 1);
+        const auto z = static_cast<double>(view.depth_m(i, j));
+        if (view.object(i, j) != object || std::fabs(z - depth_m) > 0.02 * depth_m) return std::nullopt;
+        const double weight = ((k & 1) != 0 ? x - x0 : 1 - (x - x0)) * (k >> 1 != 0 ? y - y0 : 1 - (y - y0));
+        sum += weight * static_cast<double>(optimised(i, j) - view.disparity(i, j));
+    }
+    return sum;
+}
+
+TemporalChange temporal_change(const StereoCache::Last& last, const StereoPair& pair, const Camera& camera,
+                               double steady_px) {
+    const MapProjection before = map_projection(last.camera, last.full_view),
+                        now = map_projection(camera, pair.view);
+    ErrorSum sum(steady_px);
+    for (int y = 0; y < pair.view.height(); ++y) {
+        for (int x = 0; x < pair.view.width(); ++x) {
+            if (pair.view.object(x, y) == nothing_seen) continue;
+            const Vec3d point =
+                now.eye + now.ray(x + 0.5, y + 0.5) * static_cast<double>(pair.view.depth_m(x, y));
+            const MapPoint place = before.project(to_float(point));
+            if (!before.on_map(place)) continue;
+            const auto earlier = change_between(last.full_view, last.optimised, pair.view.object(x, y),
+                                                place.z, place.column(), place.row());
+            if (earlier) {
+                sum.add(static_cast<double>(pair.optimised(x, y) - pair.view.disparity(x, y)) - *earlier);
+            }
+        }
+    }
+    return {sum.error()};
+}
+
+void keep_for_next(const Scene& scene, const StereoSettings& settings, const StereoPair& pair,
+                   StereoCache& cache) {
+    cache.last = StereoCache::Last{settings.map_scale > 1 ? pair.solved_view : pair.view,
+                                   pair.solution.disparity, pair.view, pair.optimised, scene.camera};
+}
+
+void measure(const Scene& scene, const StereoSettings& settings, const Exec& exec, StereoCache& cache,
+             StereoPair& pair) {
+    const Stopwatch watch;
+    const double tolerance = settings.reproject.tolerance_px;
+    pair.realised = realised_disparity(scene, pair.moved, cache.eyes.left, cache.eyes.right, pair.view,
+                                       pair.optimised, tolerance, exec, cache.eyes.middle);
+    pair.left_error = picture_error(pair.eyes.left_map, Eye::left, pair.view, pair.optimised, tolerance);
+    pair.right_error = picture_error(pair.eyes.right_map, Eye::right, pair.view, pair.optimised, tolerance);
+    pair.times.measure_s = watch.seconds();
+}
+
+/// From the map to the pictures.
+void render_pair(const Scene& scene, const StereoSettings& settings, const StereoPairOptions& options,
+                 const Exec& exec, StereoCache& cache, StereoPair& pair) {
+    const Stopwatch moving;
+    pair.moved = moved_mesh(scene.mesh, scene.camera, pair.view, pair.optimised, settings.reproject, exec,
+                            pair.reprojection);
+    pair.times.mesh_s = moving.seconds();
+    check_bytes(scene, settings, static_cast<std::int64_t>(pair.moved.mesh.triangles.size()), pair);
+
+    const Stopwatch rendering;
+    const auto seen = [&](Eye eye) {
+        return eye_positions(pair.moved, scene.camera, scene.render.height, settings.rig, eye);
+    };
+    EyesWanted wanted;
+    wanted.channels = options.channels;
+    if (settings.middle_picture) wanted.middle_margin_px = pair.view.margin_px;
+    const std::int64_t other_bytes = pair.bytes - estimate_memory(scene).shadow_maps;
+    pair.complete = render_eyes(scene, pair.moved, {seen(Eye::left), seen(Eye::right)}, settings.rig, wanted,
+                                other_bytes, exec, cache.eyes, pair.eyes);
+    pair.times.render_s = rendering.seconds();
+}
+
+}  // namespace
+
+void render_stereo_pair(const Scene& scene, const StereoSettings& settings, const StereoPairOptions& options,
+                        const Exec& exec, StereoCache& cache, StereoPair& pair) {
+    CHECK(settings.map_scale == 1 || settings.map_scale == 2 || settings.map_scale == 4 ||
+          settings.map_scale == 8);
+    const Stopwatch total;
+    pair = StereoPair{};
+    check_bytes(scene, settings, 0, pair);
+    const Stopwatch viewing;
+    pair.view = view_of(scene, settings, exec, cache.eyes.frame);
+    pair.times.view_s = viewing.seconds();
+    if (stopped(options)) return;
+
+    solve_map(scene, settings, exec, cache, pair);
+    if (cache.last) pair.temporal = temporal_change(*cache.last, pair, scene.camera, options.steady_px);
+    keep_for_next(scene, settings, pair, cache);
+    if (stopped(options)) return;
+
+    if (options.pictures) {
+        render_pair(scene, settings, options, exec, cache, pair);
+        if (pair.complete && options.measure) measure(scene, settings, exec, cache, pair);
+    } else {
+        pair.complete = true;
+    }
+    pair.times.total_s = total.seconds();
+}
+
+}  // namespace obscura
