@@ -55,8 +55,7 @@ void solve_map(const Scene& scene, const StereoSettings& settings, const Exec& e
     const Stopwatch solving;
     const DisparityMap start = start_of(cache, view, scene.camera, exec);
     pair.warm = !start.pixels.empty();
-    // For want of a solver: the edits pixel by pixel.
-    pair.solution.disparity = pair.edited.system.start;
+    pair.solution = solve(pair.edited.system, settings.solver, exec, start);
     pair.times.solve_s = solving.seconds();
 
     const Stopwatch upsampling;
