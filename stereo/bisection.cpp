@@ -47,9 +47,9 @@ double Bisection::longest2(const FineTriangle& t) const {
     return longest;
 }
 
-/// A floor that begins under the camera reaches a million pixels below the map. Its edges are measured, and cut,
-/// where somebody sees them: in the map, and around it by its own size, as halves of halves keep a better shape
-/// than what remains between arbitrary cuts.
+/// A floor that begins under the camera reaches a million pixels below the map. Its edges are measured, and
+/// cut, where somebody sees them: in the map, and around it by its own size, as halves of halves keep a
+/// better shape than what remains between arbitrary cuts.
 void Bisection::measure(FineEdge& edge) const {
     const MapPoint &a = points[edge.lo].map, &b = points[edge.hi].map;
     edge.length2 = 0;

@@ -113,14 +113,18 @@ float mean_change(std::span<const std::uint32_t> around, const std::vector<Surfa
 }
 
 /// Step 2: rings of hidden points around the known ones, then some smoothing, as the order of rings leaves
-/// creases where they meet.
-void spread_over_surface(std::span<const Triangle> triangles, const Exec& exec,
+/// creases where they meet. Corners that step 1 found far outside of the map say where their triangle leans
+/// to, which is nothing to follow.
+void spread_over_surface(const SeenChange& seen, std::span<const Triangle> triangles, const Exec& exec,
                          std::vector<SurfacePoint>& points, Known& known) {
     const Neighbours around = neighbours(triangles, known);
     constexpr std::uint32_t never = UINT32_MAX;
     std::vector<std::uint32_t> ring(points.size(), never), hidden, front;
+    const auto leads = [&](std::uint32_t p) {
+        return known[p] != 0 && (points[p].seen || seen.projection.on_map(points[p].map));
+    };
     for (std::uint32_t p = 0; p < points.size(); ++p) {
-        if (known[p] != 0) ring[p] = 0;
+        if (leads(p)) ring[p] = 0;
     }
     const auto join = [&](std::uint32_t p, std::uint32_t r) {
         ring[p] = r;
@@ -128,7 +132,7 @@ void spread_over_surface(std::span<const Triangle> triangles, const Exec& exec,
     };
     for (std::uint32_t p = 0; p < points.size(); ++p) {
         const auto list = around.of(p);
-        if (std::any_of(list.begin(), list.end(), [&](std::uint32_t q) { return known[q] != 0; })) join(p, 1);
+        if (std::any_of(list.begin(), list.end(), [&](std::uint32_t q) { return ring[q] == 0; })) join(p, 1);
     }
     for (std::uint32_t r = 1; !front.empty(); ++r) {
         parallel_blocks(front.size(), block_points, exec, [&](std::size_t begin, std::size_t end) {
@@ -141,7 +145,7 @@ void spread_over_surface(std::span<const Triangle> triangles, const Exec& exec,
         const std::vector<std::uint32_t> last = std::exchange(front, {});
         for (const std::uint32_t p : last) {
             for (const std::uint32_t q : around.of(p)) {
-                if (ring[q] == never) join(q, r + 1);
+                if (ring[q] == never && known[q] == 0) join(q, r + 1);
             }
         }
     }
@@ -149,7 +153,8 @@ void spread_over_surface(std::span<const Triangle> triangles, const Exec& exec,
     for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
         parallel_blocks(hidden.size(), block_points, exec, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                smooth[i] = mean_change(around.of(hidden[i]), points, [](std::uint32_t) { return true; });
+                smooth[i] = mean_change(around.of(hidden[i]), points,
+                                        [&](std::uint32_t q) { return ring[q] != never; });
         });
         for (std::size_t i = 0; i < hidden.size(); ++i)
             points[hidden[i]].change_px = smooth[i];
@@ -184,15 +189,17 @@ void move_parts_whole(const SeenChange& seen, std::span<const Triangle> triangle
         Vec3d sum;
         double count = 0;
         float change_px = 0;
+        bool found = false;
     };
-    std::vector<std::uint32_t> number(points.size(), 0);
+    constexpr std::uint32_t none = UINT32_MAX;
+    std::vector<std::uint32_t> number(points.size(), none);  // of the part, at its root
     std::vector<Part> part;
     std::uint32_t objects = 0;
     for (std::uint32_t p = 0; p < points.size(); ++p) {
         if (known[p] != 0) continue;
         const std::uint32_t root = parts.root(p);
-        if (root == p) {
-            number[p] = static_cast<std::uint32_t>(part.size());
+        if (number[root] == none) {
+            number[root] = static_cast<std::uint32_t>(part.size());
             part.emplace_back();
         }
         Part& of = part[number[root]];
@@ -204,7 +211,8 @@ void move_parts_whole(const SeenChange& seen, std::span<const Triangle> triangle
     for (std::uint32_t p = 0; p < points.size(); ++p) {
         if (known[p] != 0) continue;
         Part& of = part[number[parts.root(p)]];
-        if (parts.root(p) == p) {
+        if (!of.found) {
+            of.found = true;
             const MapPoint place = seen.projection.project(to_float(of.sum * (1.0 / of.count)));
             const std::uint32_t object = points[p].object;
             const bool fitted = object != nothing_seen && !fits[object].empty();
@@ -238,7 +246,7 @@ void fill_hidden(const SeenChange& seen, std::span<const Triangle> triangles, co
     const auto all_known = [&] { return std::find(known.begin(), known.end(), 0) == known.end(); };
     if (all_known()) return;
     extend_seen_triangles(seen, triangles, pixels, exec, points, known);
-    spread_over_surface(triangles, exec, points, known);
+    spread_over_surface(seen, triangles, exec, points, known);
     if (!all_known()) move_parts_whole(seen, triangles, points, known);
 }
 

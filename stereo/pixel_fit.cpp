@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "raster/record.h"
 #include "stereo/screen_weights.h"
 
 namespace obscura {
@@ -67,12 +68,16 @@ Miss miss_of(const SeenChange& seen, const Bisection& surface, std::uint32_t tri
                        m.pixels += std::fabs(miss) > tolerance_px ? 1 : 0;
                        worst = std::max(worst, std::fabs(miss));
                    });
-    m.worst_px = static_cast<float>(worst);
+    const FineTriangle& t = surface.triangles[triangle];
+    double corner[3];
+    for (int k = 0; k < 3; ++k)
+        corner[k] = static_cast<double>(surface.points[t.point[k]].change_px);
+    m.worst_px = static_cast<float>(worst - weights_of(surface, t).slope(corner) / subtexel_one);
     return m;
 }
 
-void fit_points(const SeenChange& seen, std::span<const std::uint32_t> triangles,
-                std::span<const std::uint8_t> moves, const Exec& exec, Bisection& surface) {
+std::vector<PointMove> fit_points(const SeenChange& seen, std::span<const std::uint32_t> triangles,
+                                  std::span<const Follow> follow, const Exec& exec, Bisection& surface) {
     constexpr int sweeps = 3;
     // Some trust in what was there: half the weight that one pixel in the middle of a triangle has.
     constexpr double trust = 0.05, damping = 0.7;
@@ -84,11 +89,13 @@ void fit_points(const SeenChange& seen, std::span<const std::uint32_t> triangles
     constexpr std::uint32_t none = UINT32_MAX;
     std::vector<std::uint32_t> number(surface.points.size(), none);
     std::vector<PointSums> points;
+    std::vector<PointMove> moves;
     for (const std::uint32_t t : triangles) {
         for (const std::uint32_t p : surface.triangles[t].point) {
-            if (moves[p] == 0 || number[p] != none) continue;
+            if (follow[p] != Follow::moving || number[p] != none) continue;
             number[p] = static_cast<std::uint32_t>(points.size());
             points.push_back({p});
+            moves.push_back({p, -static_cast<double>(surface.points[p].change_px)});
         }
     }
     std::vector<CornerSums> sums(triangles.size());
@@ -118,6 +125,9 @@ void fit_points(const SeenChange& seen, std::span<const std::uint32_t> triangles
             p.change_px = static_cast<float>(std::clamp(change, s.low - reach, s.high + reach));
         }
     }
+    for (PointMove& move : moves)
+        move.moved_px += static_cast<double>(surface.points[move.point].change_px);
+    return moves;
 }
 
 }  // namespace obscura

@@ -21,9 +21,6 @@ constexpr double fit_before_cut = 2.0;
 /// Points that moved less than this share of the tolerance rest until a triangle around them is cut.
 constexpr double rest_share = 0.02;
 
-/// How a point comes to its change: from the map around it, or from the pixels of its triangles.
-enum Follow : std::uint8_t { gathered, moving, resting };
-
 /// State of the rounds.
 class Refinement {
   public:
@@ -34,7 +31,7 @@ class Refinement {
         }
         state_.resize(surface.points.size());
         for (std::size_t p = 0; p < state_.size(); ++p)
-            state_[p] = surface.points[p].seen ? gathered : moving;
+            state_[p] = surface.points[p].seen ? Follow::gathered : Follow::moving;
         changed_ = shown_;
     }
 
@@ -61,27 +58,21 @@ class Refinement {
     int free_corners(const FineTriangle& t) const {
         int count = 0;
         for (const std::uint32_t p : t.point)
-            count += state_[p] != gathered ? 1 : 0;
+            count += state_[p] != Follow::gathered ? 1 : 0;
         return count;
     }
 
     void fit() {
-        std::vector<std::uint8_t> moves(state_.size());
-        for (std::size_t p = 0; p < moves.size(); ++p)
-            moves[p] = state_[p] == moving ? 1 : 0;
         std::vector<std::uint32_t> list;
         for (const std::uint32_t t : shown_) {
             const auto& p = surface_.triangles[t].point;
-            if ((moves[p[0]] | moves[p[1]] | moves[p[2]]) != 0) list.push_back(t);
+            if (std::any_of(p, p + 3, [&](std::uint32_t q) { return state_[q] == Follow::moving; }))
+                list.push_back(t);
         }
         if (list.empty()) return;
-        std::vector<float> before(state_.size());
-        for (std::size_t p = 0; p < moves.size(); ++p)
-            before[p] = surface_.points[p].change_px;
-        fit_points(seen_, list, moves, exec_, surface_);
-        for (std::size_t p = 0; p < moves.size(); ++p) {
-            const double moved = static_cast<double>(surface_.points[p].change_px - before[p]);
-            if (moves[p] != 0 && std::fabs(moved) < rest_share * params_.tolerance_px) state_[p] = resting;
+        for (const PointMove& move : fit_points(seen_, list, state_, exec_, surface_)) {
+            if (std::fabs(move.moved_px) < rest_share * params_.tolerance_px)
+                state_[move.point] = Follow::resting;
         }
         changed_.insert(changed_.end(), list.begin(), list.end());
     }
@@ -101,7 +92,7 @@ class Refinement {
         std::vector<std::uint32_t> cut;
         for (const std::uint32_t t : changed_) {
             const FineTriangle& f = surface_.triangles[t];
-            if (missed_[t].pixels == 0) continue;
+            if (!(static_cast<double>(missed_[t].worst_px) > params_.tolerance_px)) continue;
             const bool crosses = surface_.crosses_near(f);
             const double longest2 = surface_.longest2(f);
             if (!crosses && free_corners(f) < 3) {
@@ -136,15 +127,15 @@ class Refinement {
         changed_.clear();
         cut_all(list);
         for (const std::uint32_t p : freed)
-            state_[p] = moving;
+            state_[p] = Follow::moving;
         gather_seen(seen_, exec_, std::span(surface_.points).subspan(points));
         state_.resize(surface_.points.size());
         for (std::size_t p = points; p < state_.size(); ++p)
-            state_[p] = surface_.points[p].seen ? gathered : moving;
+            state_[p] = surface_.points[p].seen ? Follow::gathered : Follow::moving;
 
         for (const std::uint32_t t : changed_) {
             for (const std::uint32_t p : surface_.triangles[t].point) {
-                if (state_[p] == resting) state_[p] = moving;
+                if (state_[p] == Follow::resting) state_[p] = Follow::moving;
             }
         }
 

@@ -2,6 +2,7 @@
 // Weights of a triangle's corners at a pixel, for what is linear on the screen.
 
 #include <algorithm>
+#include <cmath>
 
 #include "stereo/map_projection.h"
 
@@ -38,6 +39,14 @@ class ScreenWeights {
         }
         for (double& w : weight)
             w /= sum;
+    }
+
+    /// How fast what is `corner` at the corners changes from pixel to pixel, columns and rows together.
+    double slope(const double (&corner)[3]) const {
+        const auto along = [&](int i) {
+            return std::fabs(row_[0][i] * corner[0] + row_[1][i] * corner[1] + row_[2][i] * corner[2]);
+        };
+        return along(0) + along(1);
     }
 
   private:
