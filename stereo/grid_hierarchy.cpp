@@ -73,7 +73,8 @@ void set_diagonal(const Image<std::uint8_t>& cells, const LevelPulls& pulls, con
                         (level.edge_y.row(y - 1)[x] + level.edge_y.row(y)[x]);
             }
             diagonal[x] = edges + (member != nullptr ? anchor[x] + member[x] : anchor[x]);
-            relax[x] = static_cast<float>(jacobi_damping) / diagonal[x];
+            // A cell with neither edges nor pulls, left of an island of one pixel, is not an unknown.
+            if (diagonal[x] > 0) relax[x] = static_cast<float>(jacobi_damping) / diagonal[x];
         }
     });
 }

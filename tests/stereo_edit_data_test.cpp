@@ -89,5 +89,22 @@ TEST(StereoEditData, AMeasuredFaceIsMadeRounderAndBroughtNearer) {
     EXPECT_LT(4 * inversions(after), inversions(before));
 }
 
+TEST(StereoEditData, AnIslandOfOnePixelIsSolvedLikeAnyOther) {
+    // Measured maps have known pixels amid unknown ones.
+    for (const int width : {64, 450}) {
+        Image<std::uint8_t> valid(width, 60, 1);
+        for (int y = 20; y < 50; ++y)
+            for (int x = 20; x < 50; ++x)
+                valid(x, y) = x == 30 && y == 30 ? 1 : 0;
+        DisparitySystem s = unedited_system(DisparityMap(width, 60, 3), valid);
+        std::fill(s.anchor_weight.pixels.begin(), s.anchor_weight.pixels.begin() + width, 1.0f);
+        std::fill(s.anchor_value.pixels.begin(), s.anchor_value.pixels.end(), 5.0f);
+        const Solution solution = solve(s, {}, {});
+        EXPECT_TRUE(solution.report.converged);
+        EXPECT_NEAR(solution.disparity(30, 30), 3, 0.01);
+        EXPECT_NEAR(solution.disparity(5, 0), 5, 0.1);
+    }
+}
+
 }  // namespace
 }  // namespace obscura
