@@ -36,8 +36,8 @@ struct Work {
     int newest_r = 0, newest_p = 0;
     explicit Work(const GridHierarchy& h)
         : x(grid_vector(h)),
-          z(grid_vector(h)),
-          r{grid_vector(h), grid_vector(h)},
+          z(framed_vector(h)),
+          r{framed_vector(h), framed_vector(h)},
           p{grid_vector(h), grid_vector(h)},
           q(grid_vector(h)) {}
 };

@@ -1,5 +1,7 @@
 #include "stereo/disparity_system.h"
 
+#include <cstring>
+
 #include "core/error.h"
 
 namespace obscura {
@@ -83,40 +85,71 @@ double energy(const DisparitySystem& s, const DisparityMap& x) {
     return sum;
 }
 
+namespace {
+
+/// Pull between x_a and x_b = x_a + wanted for each i; 0 where a pixel is not valid.
+struct PairRow {
+    const float *a, *b, *wanted;
+    const std::uint8_t *valid_a, *valid_b;
+    double pull(double weight, std::size_t i) const {
+        return weight *
+               (static_cast<double>(wanted[i]) - (static_cast<double>(b[i]) - static_cast<double>(a[i])));
+    }
+};
+
+bool all_valid(const std::uint8_t* row, std::size_t count) {
+    return std::memchr(row, 0, count) == nullptr;
+}
+
+/// out[i] += sign * pull, for pairs of row `upper` and the next.
+void add_column_pulls(const PairRow& pairs, std::size_t count, double weight, bool valid, double* out) {
+    if (valid) {
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] += pairs.pull(weight, i);
+    } else {
+        for (std::size_t i = 0; i < count; ++i)
+            out[i] += (pairs.valid_a[i] & pairs.valid_b[i]) != 0 ? pairs.pull(weight, i) : 0.0;
+    }
+}
+
+}  // namespace
+
 void residual_row(const DisparitySystem& s, const DisparityMap& x, int y, double* out) {
     const auto width = static_cast<std::size_t>(s.width());
     const double weight = 2.0 * static_cast<double>(s.gradient_weight);
+    const auto epsilon = static_cast<double>(s.epsilon);
     const std::uint8_t* valid = s.valid.row(y);
     const float *value = x.row(y), *original = s.original.row(y);
     const float *anchor = s.anchor_weight.row(y), *wanted = s.anchor_value.row(y);
+    const bool here = all_valid(valid, width);
+    // A pair pulls its two ends by the same number, computed twice: nothing is lost in the sum.
+    const PairRow right{value, value + 1, s.gradient_x.row(y), valid, valid + 1};
     for (std::size_t i = 0; i < width; ++i) {
         const auto v = static_cast<double>(value[i]);
-        out[i] = static_cast<double>(s.epsilon) * (static_cast<double>(original[i]) - v) +
+        out[i] = epsilon * (static_cast<double>(original[i]) - v) +
                  static_cast<double>(anchor[i]) * (static_cast<double>(wanted[i]) - v);
     }
-    // Each pair pulls its two ends by the same number, so that nothing is lost in the sum.
-    const float* right = s.gradient_x.row(y);
-    double before = 0;
-    for (std::size_t i = 0; i < width; ++i) {
-        double pull = 0;
-        if (i + 1 < width && (valid[i] & valid[i + 1]) != 0) {
-            pull = weight * (static_cast<double>(right[i]) -
-                             (static_cast<double>(value[i + 1]) - static_cast<double>(value[i])));
+    if (here) {
+        for (std::size_t i = 0; i + 1 < width; ++i)
+            out[i] -= right.pull(weight, i);
+        for (std::size_t i = 1; i < width; ++i)
+            out[i] += right.pull(weight, i - 1);
+    } else {
+        for (std::size_t i = 0; i + 1 < width; ++i) {
+            if ((valid[i] & valid[i + 1]) == 0) continue;
+            out[i] -= right.pull(weight, i);
+            out[i + 1] += right.pull(weight, i);
         }
-        out[i] += before - pull;
-        before = pull;
     }
-    const auto add_pairs = [&](int upper, double sign) {
-        const float *a = x.row(upper), *b = x.row(upper + 1), *down = s.gradient_y.row(upper);
-        const std::uint8_t *above = s.valid.row(upper), *below = s.valid.row(upper + 1);
-        for (std::size_t i = 0; i < width; ++i) {
-            const double pull = weight * (static_cast<double>(down[i]) -
-                                          (static_cast<double>(b[i]) - static_cast<double>(a[i])));
-            out[i] += (above[i] & below[i]) != 0 ? sign * pull : 0.0;
-        }
-    };
-    if (y > 0) add_pairs(y - 1, 1.0);
-    if (y + 1 < s.height()) add_pairs(y, -1.0);
+    if (y > 0) {
+        const PairRow up{x.row(y - 1), value, s.gradient_y.row(y - 1), s.valid.row(y - 1), valid};
+        add_column_pulls(up, width, weight, here && all_valid(up.valid_a, width), out);
+    }
+    if (y + 1 < s.height()) {
+        const PairRow down{value, x.row(y + 1), s.gradient_y.row(y), valid, s.valid.row(y + 1)};
+        add_column_pulls(down, width, -weight, here && all_valid(down.valid_b, width), out);
+    }
+    if (here) return;
     for (std::size_t i = 0; i < width; ++i)
         out[i] = valid[i] != 0 ? out[i] : 0.0;
 }

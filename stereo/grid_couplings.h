@@ -2,6 +2,8 @@
 // Couplings between cells and hubs: of the finest level out of matching sets, of a coarser one out of the
 // level above.
 
+#include <algorithm>
+
 #include "stereo/grid_hierarchy.h"
 
 namespace obscura {
@@ -39,10 +41,15 @@ struct LevelPulls {
 std::vector<PlacedCoupling> coarse_couplings(const GridLevel& fine, std::size_t hubs, const LevelPulls& pulls,
                                              const Exec& exec, std::vector<double>& hub_matrix);
 
-/// What smooth interpolation keeps of a cell whose row has this diagonal and is pulled by `pull`, in (0, 1].
+/// A row of the matrix that its pulls rule: interpolation follows the row's own equation there.
+inline bool is_stiff(float pull, float diagonal) {
+    return pull > 0.3f * diagonal;
+}
+/// What smooth interpolation keeps of a cell whose row has this diagonal and is pulled by `pull`, in (0, 1]:
+/// never nothing, so that what was scaled by it can be scaled back.
 inline float kept_share(float pull, float diagonal) {
-    constexpr float stiff = 0.3f;
-    return pull > stiff * diagonal ? 1.0f - pull / diagonal : 1.0f;
+    constexpr float least = 1e-3f;
+    return is_stiff(pull, diagonal) ? std::max(1.0f - pull / diagonal, least) : 1.0f;
 }
 
 }  // namespace obscura

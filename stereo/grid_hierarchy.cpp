@@ -1,6 +1,7 @@
 #include "stereo/grid_hierarchy.h"
 
 #include <algorithm>
+#include <cstring>
 #include <tuple>
 
 #include "core/parallel.h"
@@ -48,94 +49,145 @@ float spread_at(const Image<std::uint8_t>& coarse, int x, int y) {
                    0.25f * (0.75f * exists(X, Y2) + 0.25f * exists(X2, Y2)));
 }
 
+/// Sum of the edges of row y's cells.
+void sum_edges(const Image<std::uint8_t>& cells, const GridLevel& level, int y, float* edges) {
+    if (level.uniform_edge > 0) {
+        const std::uint8_t* here = cells.row(y);
+        const std::uint8_t* above = cells.row(std::max(y - 1, 0));
+        const std::uint8_t* below = cells.row(std::min(y + 1, level.height - 1));
+        const int up = y > 0 ? 1 : 0, down = y + 1 < level.height ? 1 : 0, last = level.width - 1;
+        const auto weight = [&](int x, int left, int right) {
+            const int count = left + right + up * above[x] + down * below[x];
+            return level.uniform_edge * static_cast<float>(count);
+        };
+        edges[0] = weight(0, 0, last > 0 ? here[1] : 0);
+        for (int x = 1; x < last; ++x)
+            edges[x] = weight(x, here[x - 1], here[x + 1]);
+        if (last > 0) edges[last] = weight(last, here[last - 1], 0);
+        return;
+    }
+    const float *right = level.edge_x.row(y), *up = level.edge_y.row(y - 1), *down = level.edge_y.row(y);
+    for (int x = 0; x < level.width; ++x)
+        edges[x] = (right[x - 1] + right[x]) + (up[x] + down[x]);
+}
+
 /// Diagonal out of edges and pulls.
 void set_diagonal(const Image<std::uint8_t>& cells, const LevelPulls& pulls, const Exec& exec,
                   GridLevel& level) {
-    level.diagonal = GridPlane(level.width, level.height);
-    level.relax = GridPlane(level.width, level.height);
-    const std::uint8_t none = 0;
+    level.diagonal = GridPlane::framed(level.width, level.height);
+    level.relax = GridPlane::framed(level.width, level.height);
     for_rows(level.height, exec, [&](int y) {
         const std::uint8_t* here = cells.row(y);
-        const std::uint8_t* above = y > 0 ? cells.row(y - 1) : nullptr;
-        const std::uint8_t* below = y + 1 < level.height ? cells.row(y + 1) : nullptr;
         const float* anchor = pulls.anchor.row(y);
-        const float* member = pulls.member.empty() ? nullptr : pulls.member.row(y);
         float *diagonal = level.diagonal.row(y), *relax = level.relax.row(y);
+        sum_edges(cells, level, y, diagonal);
+        if (!pulls.member.empty()) {
+            const float* member = pulls.member.row(y);
+            for (int x = 0; x < level.width; ++x)
+                diagonal[x] += anchor[x] + member[x];
+        } else {
+            for (int x = 0; x < level.width; ++x)
+                diagonal[x] += anchor[x];
+        }
+        constexpr auto damping = static_cast<float>(jacobi_damping);
         for (int x = 0; x < level.width; ++x) {
-            if (here[x] == none) continue;
-            float edges;
-            if (level.uniform_edge > 0) {
-                const int count = (x > 0 ? here[x - 1] : 0) + (x + 1 < level.width ? here[x + 1] : 0) +
-                                  (above != nullptr ? above[x] : 0) + (below != nullptr ? below[x] : 0);
-                edges = level.uniform_edge * static_cast<float>(count);
-            } else {
-                edges = (level.edge_x.row(y)[x - 1] + level.edge_x.row(y)[x]) +
-                        (level.edge_y.row(y - 1)[x] + level.edge_y.row(y)[x]);
-            }
-            diagonal[x] = edges + (member != nullptr ? anchor[x] + member[x] : anchor[x]);
             // A cell with neither edges nor pulls, left of an island of one pixel, is not an unknown.
-            if (diagonal[x] > 0) relax[x] = static_cast<float>(jacobi_damping) / diagonal[x];
+            const bool unknown = here[x] != 0 && diagonal[x] > 0;
+            relax[x] = unknown ? damping / diagonal[x] : 0.0f;
+            diagonal[x] = unknown ? diagonal[x] : 0.0f;
         }
     });
+}
+
+/// All that pulls cells of row y, into `out`.
+void sum_pulls(const LevelPulls& pulls, int y, int width, float* out) {
+    const float* anchor = pulls.anchor.row(y);
+    if (pulls.member.empty()) {
+        std::copy_n(anchor, width, out);
+        return;
+    }
+    const float* member = pulls.member.row(y);
+    for (int x = 0; x < width; ++x)
+        out[x] = anchor[x] + member[x];
+}
+
+/// Some cell's interpolation is not smooth.
+bool any_stiff(const GridLevel& level, const LevelPulls& pulls, const Exec& exec) {
+    std::vector<std::uint8_t> rows(static_cast<std::size_t>(level.height), 0);
+    for_rows(level.height, exec, [&](int y) {
+        std::vector<float> pull(static_cast<std::size_t>(level.width));
+        sum_pulls(pulls, y, level.width, pull.data());
+        const float* diagonal = level.diagonal.row(y);
+        int count = 0;
+        for (int x = 0; x < level.width; ++x)
+            count += is_stiff(pull[static_cast<std::size_t>(x)], diagonal[x]) ? 1 : 0;
+        rows[static_cast<std::size_t>(y)] = count > 0 ? 1 : 0;
+    });
+    return std::find(rows.begin(), rows.end(), 1) != rows.end();
 }
 
 /// Shares of hubs in interpolation, and the scale of the rest.
 void set_interpolation(const Image<std::uint8_t>& cells, LevelPulls& pulls, const Exec& exec,
                        GridLevel& level) {
-    const bool masked = std::find(cells.pixels.begin(), cells.pixels.end(), 0) != cells.pixels.end();
+    const bool masked = std::memchr(cells.pixels.data(), 0, cells.pixels.size()) != nullptr;
+    if (!masked && !any_stiff(level, pulls, exec)) return;
     if (masked) pulls.spread = GridPlane(level.width, level.height);
     level.scale = GridPlane(level.width, level.height);
-    std::vector<std::uint8_t> plain(static_cast<std::size_t>(level.height), 1);
     for_rows(level.height, exec, [&](int y) {
-        const float *diagonal = level.diagonal.row(y), *anchor = pulls.anchor.row(y);
-        const float* member = pulls.member.empty() ? nullptr : pulls.member.row(y);
+        std::vector<float> pull(static_cast<std::size_t>(level.width));
+        sum_pulls(pulls, y, level.width, pull.data());
+        const float* diagonal = level.diagonal.row(y);
         float* scale = level.scale.row(y);
-        bool ones = true;
         for (int x = 0; x < level.width; ++x) {
             if (cells(x, y) == 0) continue;
-            const float pull = member != nullptr ? anchor[x] + member[x] : anchor[x];
-            float value = kept_share(pull, diagonal[x]);
+            float value = kept_share(pull[static_cast<std::size_t>(x)], diagonal[x]);
             if (masked) value *= pulls.spread.row(y)[x] = spread_at(pulls.coarse, x, y);
             scale[x] = value;
-            ones = ones && value == 1.0f;
         }
-        plain[static_cast<std::size_t>(y)] = ones ? 1 : 0;
         if (level.couplings.empty()) return;
         const auto row = static_cast<std::size_t>(y);
         for (std::uint32_t i = level.coupling_rows[row]; i < level.coupling_rows[row + 1]; ++i) {
             Coupling& c = level.couplings[i];
-            const bool stiff = kept_share(anchor[c.x] + member[c.x], diagonal[c.x]) < 1.0f;
+            const bool stiff = is_stiff(pull[static_cast<std::size_t>(c.x)], diagonal[c.x]);
             c.share = stiff ? c.weight / diagonal[c.x] : 0.0f;
         }
     });
-    if (std::find(plain.begin(), plain.end(), 0) == plain.end()) level.scale = GridPlane();
 }
 
-/// Anchors of the next level: those of the interpolated values, lumped.
-GridPlane coarse_anchors(const GridLevel& fine, const LevelPulls& pulls, const Exec& exec) {
-    GridPlane lumped(fine.width, fine.height);
+/// What anchors weigh for the next level: those of the interpolated values.
+GridPlane lumped_anchors(const GridLevel& fine, const LevelPulls& pulls, const Exec& exec) {
+    GridPlane lumped = GridPlane::framed(fine.width, fine.height);
     for_rows(fine.height, exec, [&](int y) {
+        std::vector<float> pull(static_cast<std::size_t>(fine.width));
+        sum_pulls(pulls, y, fine.width, pull.data());
         const float *anchor = pulls.anchor.row(y), *diagonal = fine.diagonal.row(y);
-        const float* member = pulls.member.empty() ? nullptr : pulls.member.row(y);
         const float* spread = pulls.spread.empty() ? nullptr : pulls.spread.row(y);
         float* out = lumped.row(y);
         for (int x = 0; x < fine.width; ++x) {
-            if (!(diagonal[x] > 0)) continue;
-            const float pull = member != nullptr ? anchor[x] + member[x] : anchor[x];
-            const float kept = kept_share(pull, diagonal[x]);
-            out[x] = anchor[x] * kept * kept * (spread != nullptr ? spread[x] : 1.0f);
+            const float kept = kept_share(pull[static_cast<std::size_t>(x)], diagonal[x]);
+            const float value = anchor[x] * kept * kept * (spread != nullptr ? spread[x] : 1.0f);
+            out[x] = diagonal[x] > 0 ? value : 0.0f;
         }
     });
+    return lumped;
+}
+
+/// Anchors of the next level.
+GridPlane coarse_anchors(const GridLevel& fine, const LevelPulls& pulls, const Exec& exec) {
+    GridPlane own;
+    if (!fine.scale.empty()) own = lumped_anchors(fine, pulls, exec);
+    const GridPlane& lumped = fine.scale.empty() ? pulls.anchor : own;
     const int width = pulls.coarse.width, height = pulls.coarse.height;
-    GridPlane coarse(width, height);
+    GridPlane coarse = GridPlane::framed(width, height);
     for_rows(height, exec, [&](int Y) {
         RowRing scratch(fine.width + 32, 3);
         const float* sources[4];
         restrict_sources(
             Y, fine.height, lumped.row(-1), [&](int y) { return lumped.row(y); }, sources);
-        ref::restrict_row(sources, fine.width, width, scratch.row(0), coarse.row(Y));
+        float* out = coarse.row(Y);
+        OBSCURA_DISPATCH(exec.isa, restrict_row, sources, fine.width, width, scratch.row(0), out);
         for (int X = 0; X < width; ++X)
-            coarse.row(Y)[X] = pulls.coarse(X, Y) != 0 ? coarse.row(Y)[X] : 0.0f;
+            out[X] = pulls.coarse(X, Y) != 0 ? out[X] : 0.0f;
     });
     return coarse;
 }
@@ -183,11 +235,13 @@ GridLevel finest_level(const DisparitySystem& s, const GridHierarchy& h, const E
     cells = s.valid;
     for (const GridHierarchy::Pixel& hub : h.hubs)
         cells(hub.x, hub.y) = 0;
-    pulls.anchor = GridPlane(level.width, level.height);
+    pulls.anchor = GridPlane::framed(level.width, level.height);
     for_rows(level.height, exec, [&](int y) {
         float* anchor = pulls.anchor.row(y);
+        const float* weight = s.anchor_weight.row(y);
+        const std::uint8_t* here = cells.row(y);
         for (int x = 0; x < level.width; ++x)
-            anchor[x] = cells(x, y) != 0 ? s.epsilon + s.anchor_weight(x, y) : 0.0f;
+            anchor[x] = here[x] != 0 ? s.epsilon + weight[x] : 0.0f;
     });
     if (!h.hubs.empty()) pulls.member = GridPlane(level.width, level.height);
     file_couplings(finest_couplings(s, h.hubs, level.hub_matrix), h.hubs.size(), level, pulls.member);

@@ -20,12 +20,19 @@ constexpr int row_padding = 32;
 class GridPlane {
   public:
     GridPlane() = default;
-    GridPlane(int width, int height)
-        : width_(width),
-          height_(height),
-          stride_(row_count(width) + 2 * row_padding),
-          data_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2)) {
+    GridPlane(int width, int height) : GridPlane(width, height, Uninitialised{}) {
         std::fill(data_.begin(), data_.end(), 0.0f);
+    }
+    /// The frame alone is 0: every row must be written, to row_count(width), before it is read.
+    static GridPlane framed(int width, int height) {
+        GridPlane plane(width, height, Uninitialised{});
+        std::fill_n(plane.row(-1) - row_padding, plane.stride_, 0.0f);
+        for (int y = 0; y < height; ++y) {
+            std::fill_n(plane.row(y) - row_padding, row_padding, 0.0f);
+            std::fill_n(plane.row(y) + width, plane.stride_ - row_padding - width, 0.0f);
+        }
+        std::fill_n(plane.row(height) - row_padding, plane.stride_, 0.0f);
+        return plane;
     }
     bool empty() const { return data_.size() == 0; }
     int width() const { return width_; }
@@ -37,6 +44,13 @@ class GridPlane {
     std::size_t bytes() const { return data_.size() * sizeof(float); }
 
   private:
+    struct Uninitialised {};
+    GridPlane(int width, int height, Uninitialised)
+        : width_(width),
+          height_(height),
+          stride_(row_count(width) + 2 * row_padding),
+          data_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2)) {}
+
     int width_ = 0, height_ = 0;
     std::ptrdiff_t stride_ = 0;
     Buffer<float> data_;

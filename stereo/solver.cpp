@@ -43,10 +43,11 @@ void add_first_solution(const DisparitySystem& s, GridHierarchy& h, const Exec& 
 
 /// Fills in what is known of a finished solution.
 void judge(const DisparitySystem& s, const SolverParams& params, const Exec& exec, Solution& solution) {
+    if (!params.verify) return;
     const double before = residual_norm(s, s.start, exec);
     const double after = residual_norm(s, solution.disparity, exec);
     solution.report.residual = before > 0 ? after / before : after;
-    if (params.tell_unsatisfied) solution.report.unsatisfied = unsatisfied(s, solution.disparity);
+    solution.report.unsatisfied = unsatisfied(s, solution.disparity);
 }
 
 }  // namespace

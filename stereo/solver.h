@@ -20,10 +20,10 @@ struct SolverParams {
     double tolerance_max_px = 0.05;  ///< stop when both error estimates are below; multigrid, fmg, vcycle
     double tolerance_rms_px = 0.02;
     int max_iterations = 60;
-    int sweeps = 10;               ///< cascade: Jacobi sweeps per level
-    bool tell_unsatisfied = true;  ///< fill report.unsatisfied
-    bool half_storage = false;     ///< cascade: maps as 16-bit floats between sweeps, as the paper keeps them
-    bool printed_sign = false;     ///< cascade: the upsampling formula with the sign as printed
+    int sweeps = 10;            ///< cascade: Jacobi sweeps per level
+    bool verify = true;         ///< fill in report.residual and report.unsatisfied when done
+    bool half_storage = false;  ///< cascade: maps as 16-bit floats between sweeps, as the paper keeps them
+    bool printed_sign = false;  ///< cascade: the upsampling formula with the sign as printed
 };
 
 struct Solution {

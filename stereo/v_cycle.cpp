@@ -195,6 +195,11 @@ GridVector grid_vector(const GridHierarchy& h) {
     return {GridPlane(h.levels[0].width, h.levels[0].height), std::vector<double>(h.hubs.size(), 0.0)};
 }
 
+GridVector framed_vector(const GridHierarchy& h) {
+    return {GridPlane::framed(h.levels[0].width, h.levels[0].height),
+            std::vector<double>(h.hubs.size(), 0.0)};
+}
+
 RowEdges row_edges(const GridLevel& level, int y) {
     if (level.uniform_edge > 0) return {level.uniform_edge, nullptr, nullptr, nullptr};
     return {0.0f, level.edge_x.row(y), level.edge_y.row(y - 1), level.edge_y.row(y)};

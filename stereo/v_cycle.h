@@ -19,7 +19,10 @@ struct GridVector {
     GridPlane cells;
     std::vector<double> hubs;
 };
+/// Zero.
 GridVector grid_vector(const GridHierarchy& hierarchy);
+/// The frame is 0, the rest must be written first (GridPlane::framed).
+GridVector framed_vector(const GridHierarchy& hierarchy);
 
 /// Seconds spent per level, added to; empty: not measured.
 using LevelSeconds = std::vector<double>;
