@@ -30,22 +30,10 @@ void add_lanes(const LaneSums& lanes, DirectionSums& sums) {
     }
 }
 
-/// The vectors of the iteration. Those that a pass reads at neighbours and writes are doubled.
-struct Work {
-    GridVector x, z, r[2], p[2], q;
-    int newest_r = 0, newest_p = 0;
-    explicit Work(const GridHierarchy& h)
-        : x(grid_vector(h)),
-          z(framed_vector(h)),
-          r{framed_vector(h), framed_vector(h)},
-          p{grid_vector(h), grid_vector(h)},
-          q(grid_vector(h)) {}
-};
-
 /// Rows [y0, y1) of x += alpha p_old, p = z + beta p_old, q = A p. Rows of p on either side are made too, but
 /// not kept: they belong to others.
-DirectionSums direction_rows(const GridLevel& level, Work& w, float beta, float alpha, int y0, int y1,
-                             const Exec& exec, std::vector<double>& hub_sums) {
+DirectionSums direction_rows(const GridLevel& level, IterationVectors& w, float beta, float alpha, int y0,
+                             int y1, const Exec& exec, std::vector<double>& hub_sums) {
     const GridVector& old = w.p[1 - w.newest_p];
     GridVector& p = w.p[w.newest_p];
     const int count = level.relax.count();
@@ -84,7 +72,8 @@ DirectionSums direction_rows(const GridLevel& level, Work& w, float beta, float 
 }
 
 /// The pass over the new direction: returns its sums, hubs included.
-DirectionSums new_direction(const GridHierarchy& h, Work& w, double beta, double alpha, const Exec& exec) {
+DirectionSums new_direction(const GridHierarchy& h, IterationVectors& w, double beta, double alpha,
+                            const Exec& exec) {
     const GridLevel& level = h.levels[0];
     const std::size_t hubs = h.hubs.size(), tasks = tasks_of(level.height);
     w.newest_p = 1 - w.newest_p;
@@ -122,7 +111,7 @@ DirectionSums new_direction(const GridHierarchy& h, Work& w, double beta, double
 }
 
 /// x of the system plus the solution so far.
-void add_solution(const GridHierarchy& h, const Work& w, const Exec& exec, DisparityMap& x) {
+void add_solution(const GridHierarchy& h, const IterationVectors& w, const Exec& exec, DisparityMap& x) {
     parallel_blocks(static_cast<std::size_t>(x.height), rows_per_task, exec,
                     [&](std::size_t begin, std::size_t end) {
                         for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
@@ -157,6 +146,23 @@ class ErrorEstimate {
 };
 
 }  // namespace
+
+IterationVectors::IterationVectors(const GridHierarchy& h)
+    : x(grid_vector(h)),
+      z(framed_vector(h)),
+      r{framed_vector(h), framed_vector(h)},
+      p{grid_vector(h), grid_vector(h)},
+      q(grid_vector(h)) {}
+
+void IterationVectors::reset(const GridHierarchy& h) {
+    newest_r = newest_p = 0;
+    for (GridVector* v : {&x, &p[0], &p[1], &q}) {
+        for (int y = 0; y < v->cells.height(); ++y)
+            std::fill_n(v->cells.row(y), v->cells.count(), 0.0f);
+    }
+    for (GridVector* v : {&x, &z, &r[0], &r[1], &p[0], &p[1], &q})
+        v->hubs.assign(h.hubs.size(), 0.0);
+}
 
 double residual_norm(const DisparitySystem& s, const DisparityMap& x, const Exec& exec) {
     Image<double> of_sets;
@@ -214,10 +220,10 @@ void start_residual(const DisparitySystem& s, const GridHierarchy& h, const Disp
     });
 }
 
-void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& params, bool stationary,
-             const Exec& exec, DisparityMap& x, SolveReport& report, LevelSeconds& seconds) {
+void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& params, const Exec& exec,
+             IterationVectors& w, DisparityMap& x, SolveReport& report, LevelSeconds& seconds) {
     const auto start = std::chrono::steady_clock::now();
-    Work w(h);
+    const bool stationary = params.method != SolverMethod::multigrid;
     start_residual(s, h, x, exec, w.r[0]);
     const auto unknowns = static_cast<double>(s.width()) * static_cast<double>(s.height());
     ErrorEstimate largest(h.hubs.size()), root_mean_square(h.hubs.size());

@@ -11,6 +11,15 @@
 
 namespace obscura {
 
+/// The vectors of the iteration. Those that a pass reads at neighbours and writes are doubled.
+struct IterationVectors {
+    GridVector x, z, r[2], p[2], q;
+    int newest_r = 0, newest_p = 0;
+    explicit IterationVectors(const GridHierarchy& hierarchy);
+    /// As made anew, in the same memory; the hierarchy is of the same size.
+    void reset(const GridHierarchy& hierarchy);
+};
+
 /// r = b - A x of the system, in double, rounded once; per unknown of the hierarchy.
 void start_residual(const DisparitySystem& system, const GridHierarchy& hierarchy, const DisparityMap& x,
                     const Exec& exec, GridVector& r);
@@ -18,10 +27,11 @@ void start_residual(const DisparitySystem& system, const GridHierarchy& hierarch
 /// |b - A x|, Euclidean, in double.
 double residual_norm(const DisparitySystem& system, const DisparityMap& x, const Exec& exec);
 
-/// Adds to `x` what lies between it and the minimiser, until the estimated error is within the tolerances.
-/// `stationary`: V-cycles without conjugate gradients. Appends to report.steps and fills its estimates,
-/// iterations and converged.
+/// Adds to `x` what lies between it and the minimiser, until the estimated error is within the tolerances:
+/// with SolverMethod::multigrid by conjugate gradients, else by V-cycles alone. Appends to report.steps and
+/// fills its estimates, iterations and converged.
 void iterate(const DisparitySystem& system, GridHierarchy& hierarchy, const SolverParams& params,
-             bool stationary, const Exec& exec, DisparityMap& x, SolveReport& report, LevelSeconds& seconds);
+             const Exec& exec, IterationVectors& vectors, DisparityMap& x, SolveReport& report,
+             LevelSeconds& seconds);
 
 }  // namespace obscura

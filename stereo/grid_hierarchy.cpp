@@ -129,7 +129,8 @@ bool any_stiff(const GridLevel& level, const LevelPulls& pulls, const Exec& exec
 /// Shares of hubs in interpolation, and the scale of the rest.
 void set_interpolation(const Image<std::uint8_t>& cells, LevelPulls& pulls, const Exec& exec,
                        GridLevel& level) {
-    const bool masked = std::memchr(cells.pixels.data(), 0, cells.pixels.size()) != nullptr;
+    // Where the next level has all its cells, interpolation has all its parts, whatever is missing here.
+    const bool masked = std::memchr(pulls.coarse.pixels.data(), 0, pulls.coarse.pixels.size()) != nullptr;
     if (!masked && !any_stiff(level, pulls, exec)) return;
     if (masked) pulls.spread = GridPlane(level.width, level.height);
     level.scale = GridPlane(level.width, level.height);

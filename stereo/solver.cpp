@@ -68,6 +68,12 @@ Solution solve(const DisparitySystem& system, const SolverParams& params, const 
         use.levels = grid_hierarchy(system, exec);
         if (cache != nullptr) use.matrix_of = matrix_part(system);
     }
+    if (use.vectors != nullptr && use.vectors->x.cells.width() == system.width() &&
+        use.vectors->x.cells.height() == system.height()) {
+        use.vectors->reset(use.levels);
+    } else {
+        use.vectors = std::make_shared<IterationVectors>(use.levels);
+    }
     Solution solution;
     SolveReport& report = solution.report;
     solution.disparity = initial.pixels.empty() ? system.start : initial;
@@ -79,8 +85,7 @@ Solution solve(const DisparitySystem& system, const SolverParams& params, const 
     report.setup_s = since(start);
     if (params.method == SolverMethod::fmg)
         add_first_solution(system, use.levels, exec, solution.disparity, seconds);
-    iterate(system, use.levels, params, params.method != SolverMethod::multigrid, exec, solution.disparity,
-            report, seconds);
+    iterate(system, use.levels, params, exec, *use.vectors, solution.disparity, report, seconds);
     report.solve_s = since(start) - report.setup_s;
     for (std::size_t l = 0; l < seconds.size(); ++l)
         report.levels.push_back({use.levels.levels[l].width, use.levels.levels[l].height, seconds[l]});

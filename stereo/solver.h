@@ -1,6 +1,8 @@
 #pragma once
 // From a system of edits to the disparity map that minimises its energy (thesis 4.5, 4.6).
 
+#include <memory>
+
 #include "core/isa.h"
 #include "stereo/disparity_system.h"
 #include "stereo/grid_hierarchy.h"
@@ -26,6 +28,8 @@ struct SolverParams {
     bool printed_sign = false;  ///< cascade: the upsampling formula with the sign as printed
 };
 
+struct IterationVectors;
+
 struct Solution {
     DisparityMap disparity;
     SolveReport report;
@@ -36,6 +40,7 @@ struct Solution {
 struct SolverCache {
     DisparitySystem matrix_of;  ///< whose matrix the levels are of; without maps and values
     GridHierarchy levels;
+    std::shared_ptr<IterationVectors> vectors;
 };
 
 /// Minimises the system's energy. `initial`: where to start from (last frame's map, or the one before an
