@@ -187,6 +187,36 @@ TEST(ReducedSystem, SkipsWhatIsInvalidAndSumsWhatIsAnchored) {
     EXPECT_EQ(low.anchor_weight(21, 10), 0);
 }
 
+TEST(ReducedSystem, SourcesAndAnchorsStayWithTheirObject) {
+    const int n = 4;
+    MiddleView view = sphere_scene().view();
+    view.object = Image<std::uint32_t>(view.width(), view.height(), 0);
+    DisparitySystem full = unedited_system(view.disparity, {});
+    // A source between samples; its block's sample (41, 41) is of another object, the next one its own.
+    view.object(41, 41) = 1;
+    full.start(42, 42) = 10;
+    full.start(45, 41) = 7;
+    full.sets.push_back(
+        {"match", 42, 42, 2, {{100, 99, 9}, {101, 101, 1.5f}, {102, 101, 9}, {105, 101, -2}}});
+    full.sets.push_back({"between samples", 41, 41, 1, {{100, 100, 1}}});
+    // Anchors: four pixels of a block, one of them of the sample's object.
+    view.object(81, 81) = view.object(82, 82) = 5;
+    for (const auto& [x, y] : {std::pair{80, 80}, {81, 80}, {82, 82}, {83, 83}})
+        full.anchor_weight(x, y) = 1;
+    const DisparitySystem low = reduced_system(full, view, n, Exec{});
+    ASSERT_EQ(low.sets.size(), 1u);
+    const MatchingSet& set = low.sets[0];
+    EXPECT_EQ(set.source_x, 11);  // (45, 41)
+    EXPECT_EQ(set.source_y, 10);
+    EXPECT_EQ(set.weight, 2 * n * n);
+    ASSERT_EQ(set.members.size(), 2u);
+    EXPECT_EQ(set.members[0].x, 25);
+    EXPECT_EQ(set.members[0].y, 25);
+    EXPECT_EQ(set.members[0].target, 1.5f + 3);  // the sample lies 3 px behind the source
+    EXPECT_EQ(set.members[1].target, -2.0f + 3);
+    EXPECT_EQ(low.anchor_weight(20, 20), 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(Reductions, ReducedSolve, testing::Values(2, 4, 8));
 
 TEST(WarmSolve, StartsFromTheFrameBefore) {
