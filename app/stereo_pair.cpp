@@ -1,5 +1,6 @@
 #include "app/stereo_pair.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "app/stopwatch.h"
 #include "core/error.h"
 #include "stereo/map_projection.h"
+#include "stereo/reduced_system.h"
 #include "stereo/upsample.h"
 #include "stereo/warm_start.h"
 
@@ -42,20 +44,42 @@ DisparityMap start_of(const StereoCache& cache, const MiddleView& view, const Ca
     return carried_map(before, cache.last->solution, now, WarmStartParams{}, exec);
 }
 
-/// The system at its own resolution, solved, and the map at full resolution.
-void solve_map(const Scene& scene, const StereoSettings& settings, const Exec& exec, const StereoCache& cache,
+/// Instead of edits: one curve for the whole picture.
+void remap_map(const StereoSettings& settings, const Exec& exec, StereoPair& pair) {
+    const DisparitySystem& system = pair.edited.system;
+    const RemapCurve curve = remap_curve(system.original, system.valid, settings.remap);
+    pair.optimised = pair.solution.disparity = remapped(system.original, system.valid, curve, exec);
+    pair.solution.report.converged = true;
+}
+
+/// The system at the resolution that is asked for, solved, and the map at full resolution.
+void solve_map(const Scene& scene, const StereoSettings& settings, const Exec& exec, StereoCache& cache,
                StereoPair& pair) {
     const Stopwatch editing;
-    const bool lower = settings.map_scale > 1;
-    pair.solved_view = lower ? reduced(pair.view, settings.map_scale) : MiddleView{};
-    const MiddleView& view = lower ? pair.solved_view : pair.view;
-    pair.edited = edited_system(view, settings.edits, settings.edit, object_names(scene.mesh), exec);
+    const bool remaps = settings.remap.kind != RemapKind::none, lower = settings.map_scale > 1 && !remaps;
+    const std::vector<StereoEdit> no_edits;
+    pair.edited = edited_system(pair.view, remaps ? no_edits : settings.edits, settings.edit,
+                                object_names(scene.mesh), exec);
+    if (lower) {
+        pair.reduced_view = reduced(pair.view, settings.map_scale);
+        pair.reduced_system = reduced_system(pair.edited.system, pair.view, settings.map_scale, exec);
+    }
+    const MiddleView& view = lower ? pair.reduced_view : pair.view;
     pair.times.edit_s = editing.seconds();
 
     const Stopwatch solving;
+    if (remaps) {
+        remap_map(settings, exec, pair);
+        pair.times.solve_s = solving.seconds();
+        return;
+    }
     const DisparityMap start = start_of(cache, view, scene.camera, exec);
     pair.warm = !start.pixels.empty();
-    pair.solution = solve(pair.edited.system, settings.solver, exec, start);
+    pair.solution =
+        solve(lower ? pair.reduced_system : pair.edited.system, settings.solver, exec, start, &cache.solver);
+    const std::vector<float>& solved = pair.solution.disparity.pixels;
+    CHECK(std::all_of(solved.begin(), solved.end(), [](float d) { return std::isfinite(d); }),
+          "the solver diverged");
     pair.times.solve_s = solving.seconds();
 
     const Stopwatch upsampling;
@@ -112,10 +136,10 @@ TemporalChange temporal_change(const StereoCache::Last& last, const StereoPair& 
     return {sum.error()};
 }
 
-void keep_for_next(const Scene& scene, const StereoSettings& settings, const StereoPair& pair,
-                   StereoCache& cache) {
-    cache.last = StereoCache::Last{settings.map_scale > 1 ? pair.solved_view : pair.view,
-                                   pair.solution.disparity, pair.view, pair.optimised, scene.camera};
+void keep_for_next(const Scene& scene, const StereoPair& pair, StereoCache& cache) {
+    const bool lower = !pair.reduced_view.disparity.pixels.empty();
+    cache.last = StereoCache::Last{lower ? pair.reduced_view : pair.view, pair.solution.disparity, pair.view,
+                                   pair.optimised, scene.camera};
 }
 
 void measure(const Scene& scene, const StereoSettings& settings, const Exec& exec, StereoCache& cache,
@@ -167,7 +191,7 @@ void render_stereo_pair(const Scene& scene, const StereoSettings& settings, cons
 
     solve_map(scene, settings, exec, cache, pair);
     if (cache.last) pair.temporal = temporal_change(*cache.last, pair, scene.camera, options.steady_px);
-    keep_for_next(scene, settings, pair, cache);
+    keep_for_next(scene, pair, cache);
     if (stopped(options)) return;
 
     if (options.pictures) {

@@ -25,7 +25,7 @@ namespace obscura {
 /// Wall-clock seconds.
 struct StereoTimes {
     double view_s = 0;      ///< the middle view, and finding its margin
-    double edit_s = 0;      ///< edits into a system, conflicts
+    double edit_s = 0;      ///< edits into a system, conflicts; reducing it
     double solve_s = 0;     ///< warm start included
     double upsample_s = 0;  ///< of a solution of lower resolution
     double mesh_s = 0;      ///< vertices' changes and tessellation
@@ -48,10 +48,11 @@ struct StereoPairOptions {
 };
 
 struct StereoPair {
-    MiddleView view;         ///< full resolution
-    MiddleView solved_view;  ///< what the system is about: the view reduced; empty at map_scale 1
-    EditedSystem edited;     ///< of that
-    Solution solution;       ///< of that
+    MiddleView view;          ///< full resolution
+    EditedSystem edited;      ///< of that; without edits where settings ask for a remap
+    MiddleView reduced_view;  ///< what was solved where it was not that, map_scale > 1; else empty
+    DisparitySystem reduced_system;
+    Solution solution;       ///< of what was solved; a remap's curve is taken for solved
     bool warm = false;       ///< began at the last frame's
     DisparityMap optimised;  ///< full resolution, size of `view`
     MovedMesh moved;
@@ -76,6 +77,7 @@ struct StereoCache {
     };
     EyesCache eyes;
     std::optional<Last> last;  ///< where the next solve starts
+    SolverCache solver;
     void forget() { *this = StereoCache{}; }
 };
 

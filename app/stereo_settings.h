@@ -10,6 +10,7 @@
 #include "core/scene.h"
 #include "stereo/edit.h"
 #include "stereo/moved_mesh.h"
+#include "stereo/range_remap.h"
 #include "stereo/solver.h"
 #include "stereo/stereo_rig.h"
 
@@ -23,6 +24,7 @@ struct StereoSettings {
     int map_scale = 1;              ///< the system is solved at 1 : 1, 2, 4 or 8
     std::vector<StereoEdit> edits;  ///< weights with fades and keyframes of this frame
     EditParams edit;
+    RangeRemap remap;  ///< of any kind but none: instead of edits, one curve for all, for comparison
     SolverParams solver;
     ReprojectParams reproject;
     bool middle_picture = false;  ///< also render what the middle camera sees, margins included: for warping
