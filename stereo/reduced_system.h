@@ -4,9 +4,10 @@
 // The paper makes its smaller systems from smaller views, "via rendering or sampling" (thesis 4.3.3, 4.3.5).
 // Applied to samples, an edit misses what happens between them: a sphere loses a third of its depth in the
 // last pixels before its outline, so that scaling the difference of two samples, or keeping that at its
-// border, asks for another shape (0.36 px rms of error at 1:8 where the change is 4 px). Here the full system
-// is built, which costs little beside solving it, and every reduced gradient is the sum of the full ones
-// along the way from sample to sample, as in a chain of springs (0.02 px rms in the same case).
+// border, asks for another shape (0.36 px rms of error at 1:8 where the change is 4 px). Here
+// every reduced gradient is the sum of the full ones along the way from sample to sample, as in a chain of
+// springs (0.02 px rms in the same case). The price: the full system must be built, about as much work as
+// solving it; a preview that cannot wait applies edits to reduced(view) and lives with the error.
 
 #include "core/isa.h"
 #include "stereo/disparity_system.h"
