@@ -33,7 +33,6 @@ struct Scan {
     const MiddleView& view;
     const DisparityMap& map;
     const ConflictLimits& limits;
-    const Image<std::uint8_t>& valid;
     const std::vector<double>& distance;  ///< of each column to the picture's side
     Image<std::uint8_t>& marks;
 };
@@ -45,49 +44,76 @@ void count(Tallies& tallies, const Key& key, double wrong_px, bool inherited) {
     tally.worst_px = std::max(tally.worst_px, wrong_px);
 }
 
-/// Steps between p = (x, y) and a neighbour, both valid. `first`: p comes before it, so the pair is counted.
-void look_at_pair(const Scan& s, int x, int y, int nx, int ny, bool first, Tallies& tallies) {
-    const double original =
-        static_cast<double>(s.view.disparity(nx, ny)) - static_cast<double>(s.view.disparity(x, y));
-    const double edited = static_cast<double>(s.map(nx, ny)) - static_cast<double>(s.map(x, y));
-    const std::uint32_t p = s.view.object(x, y), q = s.view.object(nx, ny);
-    if (p != q) {
-        if (!inverted(original, edited, s.limits.meaningful_px)) return;
-        s.marks(x, y) |= conflict_bit(ConflictKind::depth_inversion);
-        const bool q_in_front = original > 0;
-        if (first)
-            count(tallies,
-                  {ConflictKind::depth_inversion, q_in_front ? q : p, q_in_front ? p : q, Side::none},
-                  std::abs(edited), false);
-        return;
-    }
-    const double fold = fold_step(s.view.reduction);
-    if (y != ny || std::abs(edited) < fold + s.limits.meaningful_px || std::abs(original) >= fold) return;
-    s.marks(x, y) |= conflict_bit(ConflictKind::fold);
-    if (first)
-        count(tallies, {ConflictKind::fold, p, nothing_seen, Side::none}, std::abs(edited) - fold, false);
+bool seen(const MiddleView& view, std::size_t i) {
+    return view.object.pixels[i] != nothing_seen && std::isfinite(view.disparity.pixels[i]);
 }
 
-void look_at_pixel(const Scan& s, int x, int y, Tallies& tallies) {
-    const auto d = static_cast<double>(s.map(x, y)), original = static_cast<double>(s.view.disparity(x, y));
-    const std::uint32_t object = s.view.object(x, y);
+/// What is wrong with the step from pixel p to its neighbour q, both seen, by index; 0 for nothing.
+std::uint8_t wrong_step(const Scan& s, std::size_t p, std::size_t q, bool across) {
+    const double edited = static_cast<double>(s.map.pixels[q]) - static_cast<double>(s.map.pixels[p]);
+    const auto original = [&] {
+        return static_cast<double>(s.view.disparity.pixels[q]) -
+               static_cast<double>(s.view.disparity.pixels[p]);
+    };
+    if (s.view.object.pixels[p] != s.view.object.pixels[q])
+        return inverted(original(), edited, s.limits.meaningful_px)
+                   ? conflict_bit(ConflictKind::depth_inversion)
+                   : std::uint8_t{0};
+    const double fold = fold_step(s.view.reduction);
+    if (!across || std::abs(edited) < fold + s.limits.meaningful_px || std::abs(original()) >= fold) return 0;
+    return conflict_bit(ConflictKind::fold);
+}
+
+void count_step(const Scan& s, std::size_t p, std::size_t q, std::uint8_t wrong, Tallies& tallies) {
+    const double step = std::abs(static_cast<double>(s.map.pixels[q]) - static_cast<double>(s.map.pixels[p]));
+    const std::uint32_t a = s.view.object.pixels[p], b = s.view.object.pixels[q];
+    if (wrong == conflict_bit(ConflictKind::fold)) {
+        count(tallies, {ConflictKind::fold, a, nothing_seen, Side::none}, step - fold_step(s.view.reduction),
+              false);
+        return;
+    }
+    const bool b_in_front = s.view.disparity.pixels[q] > s.view.disparity.pixels[p];
+    count(tallies, {ConflictKind::depth_inversion, b_in_front ? b : a, b_in_front ? a : b, Side::none}, step,
+          false);
+}
+
+/// Window and comfort, of one pixel.
+void look_at_pixel(const Scan& s, int x, std::size_t i, Tallies& tallies) {
+    const auto d = static_cast<double>(s.map.pixels[i]),
+               original = static_cast<double>(s.view.disparity.pixels[i]);
     const auto found = [&](ConflictKind kind, Side side, double wrong_px, bool inherited) {
         if (wrong_px < s.limits.meaningful_px) return;
-        s.marks(x, y) |= conflict_bit(kind);
-        count(tallies, {kind, object, nothing_seen, side}, wrong_px, inherited);
+        s.marks.pixels[i] |= conflict_bit(kind);
+        count(tallies, {kind, s.view.object.pixels[i], nothing_seen, side}, wrong_px, inherited);
     };
-    const Side side = 2 * picture_x(s.view, x) < s.view.picture_width ? Side::left : Side::right;
+    const Side side = 2 * x < s.map.width ? Side::left : Side::right;
     found(ConflictKind::window_violation, side, d - s.distance[static_cast<std::size_t>(x)], original >= d);
     found(ConflictKind::comfort, Side::near, d - s.limits.comfort.nearest_px, original >= d);
     found(ConflictKind::comfort, Side::far, s.limits.comfort.farthest_px - d, original <= d);
+}
 
-    const auto valid = [&](int i, int j) {
-        return i >= 0 && j >= 0 && i < s.map.width && j < s.map.height && s.valid(i, j) != 0;
-    };
-    if (valid(x + 1, y)) look_at_pair(s, x, y, x + 1, y, true, tallies);
-    if (valid(x, y + 1)) look_at_pair(s, x, y, x, y + 1, true, tallies);
-    if (valid(x - 1, y)) look_at_pair(s, x, y, x - 1, y, false, tallies);
-    if (valid(x, y - 1)) look_at_pair(s, x, y, x, y - 1, false, tallies);
+/// Rows [begin, end). A step is counted where it begins; its second pixel is marked by the rows it is in.
+void look_at_rows(const Scan& s, int begin, int end, Tallies& tallies) {
+    const auto width = static_cast<std::size_t>(s.map.width);
+    for (int y = begin; y < end; ++y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t p = static_cast<std::size_t>(y) * width + x;
+            if (!seen(s.view, p)) continue;
+            look_at_pixel(s, static_cast<int>(x), p, tallies);
+            const auto step_to = [&](std::size_t q, bool across, bool ours) {
+                if (!seen(s.view, q)) return;
+                const std::uint8_t wrong = wrong_step(s, p, q, across);
+                if (wrong == 0) return;
+                count_step(s, p, q, wrong, tallies);
+                s.marks.pixels[p] |= wrong;
+                if (ours) s.marks.pixels[q] |= wrong;
+            };
+            if (x + 1 < width) step_to(p + 1, true, true);
+            if (y + 1 < s.map.height) step_to(p + width, false, y + 1 < end);
+            if (y == begin && y > 0 && seen(s.view, p - width))
+                s.marks.pixels[p] |= wrong_step(s, p - width, p, false);
+        }
+    }
 }
 
 std::string what(const Key& key, const std::vector<std::string>& names) {
@@ -137,8 +163,7 @@ double Conflicts::worst(ConflictKind kind) const {
 Image<std::uint8_t> valid_pixels(const MiddleView& view) {
     Image<std::uint8_t> valid(view.width(), view.height());
     for (std::size_t i = 0; i < valid.pixels.size(); ++i)
-        valid.pixels[i] =
-            view.object.pixels[i] != nothing_seen && std::isfinite(view.disparity.pixels[i]) ? 1 : 0;
+        valid.pixels[i] = seen(view, i) ? 1 : 0;
     return valid;
 }
 
@@ -151,21 +176,18 @@ Conflicts find_conflicts(const MiddleView& view, const DisparityMap& map, const 
                          const std::vector<std::string>& object_names, const Exec& exec) {
     CHECK(map.width == view.width() && map.height == view.height() &&
           limits.comfort.nearest_px >= limits.comfort.farthest_px);
-    const Image<std::uint8_t> valid = valid_pixels(view);
     std::vector<double> distance;
     for (int x = 0; x < map.width; ++x)
         distance.push_back(border_distance(view, x));
 
     Conflicts found;
     found.pixels = Image<std::uint8_t>(map.width, map.height);
-    const Scan scan{view, map, limits, valid, distance, found.pixels};
+    const Scan scan{view, map, limits, distance, found.pixels};
     constexpr std::size_t block = 16;
     const auto height = static_cast<std::size_t>(map.height);
     std::vector<Tallies> partial((height + block - 1) / block);
     parallel_blocks(height, block, exec, [&](std::size_t begin, std::size_t end) {
-        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-            for (int x = 0; x < map.width; ++x)
-                if (valid(x, y) != 0) look_at_pixel(scan, x, y, partial[begin / block]);
+        look_at_rows(scan, static_cast<int>(begin), static_cast<int>(end), partial[begin / block]);
     });
 
     Tallies total;
