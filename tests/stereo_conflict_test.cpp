@@ -229,6 +229,23 @@ TEST(StereoConflict, AnyThreadsFindTheSame) {
     ASSERT_GT(one.list.size(), 2u);
     EXPECT_TRUE(std::is_sorted(one.list.begin(), one.list.end(),
                                [](const Conflict& a, const Conflict& b) { return a.pixels > b.pixels; }));
+    // Every pixel with an inverted step to one of its four neighbours is marked, and no other.
+    const auto step_inverted = [&](int x, int y, int i, int j) {
+        if (i < 0 || j < 0 || i >= map.width || j >= map.height) return false;
+        if (view.object(x, y) == view.object(i, j)) return false;
+        return inverted(static_cast<double>(view.disparity(i, j) - view.disparity(x, y)),
+                        static_cast<double>(map(i, j) - map(x, y)), limits.meaningful_px);
+    };
+    int marked = 0;
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const bool wanted = step_inverted(x, y, x - 1, y) || step_inverted(x, y, x + 1, y) ||
+                                step_inverted(x, y, x, y - 1) || step_inverted(x, y, x, y + 1);
+            EXPECT_EQ((one.pixels(x, y) & conflict_bit(ConflictKind::depth_inversion)) != 0, wanted);
+            marked += wanted ? 1 : 0;
+        }
+    }
+    EXPECT_GT(marked, 100);
     for (const int threads : {2, 3, 5}) {
         const Conflicts many = find_conflicts(view, map, limits, {}, {Isa::ref, threads});
         EXPECT_EQ(many.pixels, one.pixels);

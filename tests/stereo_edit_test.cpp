@@ -227,6 +227,7 @@ TEST(StereoEdit, OrderAndThreadsLeaveNoTrace) {
         {"a", 0.7, RoundnessEdit{{{ball}, {}}, 3}},
         {"a", 0.7, RoundnessEdit{{{ball}, {}}, 1.7}},
         {"b", 0.9, RoundnessEdit{{{ball, floor_object}, {}}, 1.1, true}},
+        {"b", 0.9, RoundnessEdit{{{wall, ball}, {}}, 1.3, true}},
         {"c", 0.3, AnchorEdit{{{ball}, {}}, 3.3}},
         {"d", 0.13, AnchorEdit{{{}, {ball, wall}}, -1.7}},
         {"e", 1.9, AnchorEdit{{{ball}, {}}, 0.77}},
@@ -246,6 +247,10 @@ TEST(StereoEdit, OrderAndThreadsLeaveNoTrace) {
             random = random * 1664525u + 1013904223u;
             std::swap(edits[i - 1], edits[(random >> 16) % i]);
         }
+        // Nor does the order within a target.
+        for (StereoEdit& edit : edits)
+            if (auto* r = std::get_if<RoundnessEdit>(&edit.what))
+                std::reverse(r->target.objects.begin(), r->target.objects.end());
         EXPECT_EQ(bits_of(edited_system(view, edits, params, {}, {Isa::ref, 1 + round % 4})), bits);
     }
     for (StereoEdit& edit : edits)
