@@ -16,6 +16,7 @@ int run_dump(const Arguments& arguments);
 int run_info(const Arguments& arguments);
 int run_diff(const Arguments& arguments);
 int run_diffraction(const Arguments& arguments);
+int run_stereo(const Arguments& arguments);
 int run_bench(const Arguments& arguments);
 int run_lesson(const Arguments& arguments);
 int run_version(const Arguments& arguments);

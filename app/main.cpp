@@ -36,6 +36,7 @@ constexpr Command commands[] = {
     {"info", "Print what a mesh file holds", run_info},
     {"diff", "Compare two pictures", run_diff},
     {"diffraction", "Compute the light behind an aperture: far field, near field, colours", run_diffraction},
+    {"stereo", "Render a scene for two eyes, with edited disparity", run_stereo},
     {"bench", "Measure our methods beside their peers", run_bench},
     {"lesson", "Draw the picture of a lesson", run_lesson},
     {"version", "Print version, instruction sets and libraries", run_version},

@@ -3,6 +3,7 @@
 #include "app/scene_keys.h"
 #include "stereo/edit.h"
 #include "stereo/moved_mesh.h"
+#include "stereo/range_remap.h"
 #include "stereo/solver.h"
 #include "stereo/stereo_rig.h"
 
@@ -62,7 +63,8 @@ std::vector<KeySpec> solver_keys() {
         integer_key("cascade_sweeps", "Jacobi sweeps per level of \"cascade\".")
             .in({0, 100000})
             .or_else(std::int64_t{d.sweeps}),
-        boolean_key("half_storage", "Keeps the solver's vectors as 16-bit floats.").or_else(d.half_storage),
+        boolean_key("half_storage", "Keeps the maps of \"cascade\" as 16-bit floats, as the paper does.")
+            .or_else(d.half_storage),
         number_key("tessellation_px", "Triangles are split until their disparity is this near to the map's.")
             .in({0.001, 100})
             .or_else(ReprojectParams{}.tolerance_px),
@@ -93,14 +95,15 @@ std::vector<KeySpec> energy_keys() {
 
 std::vector<KeySpec> conflict_keys() {
     static const EditParams d;
-    const auto limit = [](const char* name, const char* doc, double most) {
-        return number_key(name, doc).in({0, most}).animate();
-    };
     return {
-        limit("comfort_near_percent", "Most disparity in front of the screen; no limit when not given.", 100),
-        limit("comfort_far_percent", "Most disparity behind the screen.", 100),
-        limit("comfort_near_deg", "Instead of comfort_near_percent: as vergence.", 90),
-        limit("comfort_far_deg", "Instead of comfort_far_percent: as vergence.", 90),
+        number_key("comfort_near_percent", "Largest disparity that is comfortable; no limit when not given.")
+            .in({0, 100})
+            .animate(),
+        number_key("comfort_far_percent", "Smallest one, behind the screen and so negative.")
+            .in({-100, 0})
+            .animate(),
+        number_key("comfort_near_deg", "Instead of comfort_near_percent: as vergence.").in({0, 90}).animate(),
+        number_key("comfort_far_deg", "Instead of comfort_far_percent: as vergence.").in({-90, 0}).animate(),
         number_key("comfort_weight", "Anchors of pixels outside of these limits; 0: leave them.")
             .in(weight_range)
             .or_else(d.comfort_weight),
@@ -116,6 +119,36 @@ std::vector<KeySpec> conflict_keys() {
         boolean_key("limit_folds",
                     "Depth that would rise so steeply that an eye looks behind it is kept from folding.")
             .or_else(d.limit_folds),
+    };
+}
+
+/// The comparison that --compare remap shows.
+std::vector<KeySpec> remap_keys() {
+    static const RangeRemap d;
+    const auto percent = [](const char* name, const char* doc) {
+        return number_key(name, doc).in({-100, 100});
+    };
+    return {
+        choice_key(
+            "remap", {"linear", "log", "histogram", "match"},
+            "One curve for the disparities of the whole picture, to compare edits with (--compare "
+            "remap). linear: to a range. log: to a range, near depth compressed. histogram: to a range, "
+            "depths that many pixels have get more of it. match: two disparities become one.")
+            .or_else("linear"),
+        percent("remap_near_percent", "Largest disparity of the wanted range.").or_else(1.0),
+        percent("remap_far_percent", "Smallest one.").or_else(-1.0),
+        number_key(
+            "remap_curvature",
+            "Of \"log\": the slope at the near end is 1 / (1 + it) of that at the far end; negative: the "
+            "reverse; 0 is linear.")
+            .in({-1000, 1000})
+            .or_else(d.curvature),
+        number_key("remap_strength", "Of \"histogram\": 0 is linear, at 1 unused disparities vanish.")
+            .in({0, 1})
+            .or_else(d.strength),
+        percent("remap_first_percent", "Of \"match\": a disparity.").or_else(0.0),
+        percent("remap_second_percent", "The one that it is brought together with.").or_else(0.0),
+        percent("remap_matched_percent", "What both become.").or_else(0.0),
     };
 }
 
@@ -247,7 +280,7 @@ const TableSpec& stereo_table() {
         TableSpec s{"[stereo]",
                     "Two eyes in place of the camera, and edits of the disparity between them: x of a point "
                     "in the left picture minus x in the right one, positive in front of the screen.",
-                    rig_keys() + solver_keys() + energy_keys() + conflict_keys(),
+                    rig_keys() + solver_keys() + energy_keys() + conflict_keys() + remap_keys(),
                     "",
                     {}};
         s.keys.push_back(table_list_key("edit", stereo_edit_table()));

@@ -198,6 +198,11 @@ void check_stereo(const SceneDocument& document, const std::vector<std::string>&
     }
     const FrameRange range = scene_frames(document);
     const SceneTable& stereo = subtable(root, "stereo");
+    if (number(stereo, "remap_near_percent") < number(stereo, "remap_far_percent")) {
+        const bool near = place_of(stereo, "remap_near_percent").source >= 0;
+        fail_at(place_of(stereo, near ? "remap_near_percent" : "remap_far_percent"), document.sources,
+                "'remap_near_percent' must not be less than 'remap_far_percent'");
+    }
     check_keyframes(keyframes, stereo, "[stereo]", stereo_table().keys, document.sources);
     for (int i = 0; i < (keyframes.empty() ? 1 : range.count()); ++i) {
         const SceneTable at = stereo_at(document, range.at(i));

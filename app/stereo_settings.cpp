@@ -70,18 +70,32 @@ EditParams edit_params_of(const SceneTable& table, const StereoRig& rig, int wid
     p.window_inherited = boolean(table, "window_inherited");
     p.limit_folds = boolean(table, "limit_folds");
     p.reset_inversions = boolean(table, "reset_inversions");
-    // Limits count from the screen, either way; in front is positive.
     if (table.has("comfort_near_percent")) {
         p.comfort.nearest_px = 0.01 * number(table, "comfort_near_percent") * width;
     } else if (table.has("comfort_near_deg")) {
         p.comfort.nearest_px = disparity_of_vergence(number(table, "comfort_near_deg"), width, rig);
     }
     if (table.has("comfort_far_percent")) {
-        p.comfort.farthest_px = -0.01 * number(table, "comfort_far_percent") * width;
+        p.comfort.farthest_px = 0.01 * number(table, "comfort_far_percent") * width;
     } else if (table.has("comfort_far_deg")) {
-        p.comfort.farthest_px = disparity_of_vergence(-number(table, "comfort_far_deg"), width, rig);
+        p.comfort.farthest_px = disparity_of_vergence(number(table, "comfort_far_deg"), width, rig);
     }
     return p;
+}
+
+RangeRemap remap_of(const SceneTable& table, int width) {
+    const auto pixels = [&](const char* key) { return 0.01 * number(table, key) * width; };
+    RangeRemap r;
+    r.curvature = number(table, "remap_curvature");
+    r.kind = r.curvature == 0 && text(table, "remap") == "log" ? RemapKind::linear
+                                                               : *parse_remap(text(table, "remap"));
+    r.nearest_px = pixels("remap_near_percent");
+    r.farthest_px = pixels("remap_far_percent");
+    r.strength = number(table, "remap_strength");
+    r.first_px = pixels("remap_first_percent");
+    r.second_px = pixels("remap_second_percent");
+    r.matched_px = pixels("remap_matched_percent");
+    return r;
 }
 
 // --- targets
@@ -230,6 +244,7 @@ StereoSettings stereo_settings(const SceneDocument& document, const Scene& scene
     s.map_scale = static_cast<int>(integer(table, "map_scale"));
     s.edit = edit_params_of(table, s.rig, scene.render.width);
     s.solver = solver_of(table);
+    s.compare_remap = remap_of(table, scene.render.width);
     s.reproject.tolerance_px = number(table, "tessellation_px");
     for (const SceneTable* edit : subtables(table, "edit"))
         add_edit(r, stereo_edit_at(document, *edit, frame));

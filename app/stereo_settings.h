@@ -27,6 +27,7 @@ struct StereoSettings {
     RangeRemap remap;  ///< of any kind but none: instead of edits, one curve for all, for comparison
     SolverParams solver;
     ReprojectParams reproject;
+    RangeRemap compare_remap;     ///< what [stereo] says of the comparison: `remap` of such a pair
     bool middle_picture = false;  ///< also render what the middle camera sees, margins included: for warping
     std::vector<std::string> notes;  ///< what one would want to know: edits that do nothing in this frame
 };

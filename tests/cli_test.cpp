@@ -42,7 +42,7 @@ TEST(Cli, VersionNamesCompilerInstructionSetsAndLibraries) {
 TEST(Cli, EveryCommandHasHelpWithUsage) {
     const auto commands = listed_commands();
     for (const char* expected :
-         {"render", "check", "dump", "info", "diff", "diffraction", "bench", "lesson", "version"})
+         {"render", "check", "dump", "info", "diff", "diffraction", "stereo", "bench", "lesson", "version"})
         EXPECT_NE(std::find(commands.begin(), commands.end(), expected), commands.end()) << expected;
     for (const std::string& command : commands) {
         const Outcome run = Program({command, "--help"}).run();
@@ -84,6 +84,10 @@ std::string plausible_value(const std::string& kind) {
                                                                      {"X", "2"},
                                                                      {"U,V", "1,2"},
                                                                      {"METHOD", "runs"},
+                                                                     {"LAYOUT", "anaglyph"},
+                                                                     {"VARIANTS", "warp"},
+                                                                     {"PREFIX", "map"},
+                                                                     {"SOLVER", "fmg"},
                                                                      {"DECADES", "5"},
                                                                      {"N", "1"}};
     for (const auto& [name, value] : values) {

@@ -66,7 +66,7 @@ inline std::vector<std::string> candidates(const KeySpec& key) {
         case KeyType::vec3_or_number:
             return {"[0.25, 0.5, 0.75]"};
         default:
-            for (const double v : {0.3, 0.07, 0.02, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0, 3000.0})
+            for (const double v : {0.3, 0.07, 0.02, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0, 3000.0, -0.3})
                 add(v);
             return values;
     }

@@ -60,8 +60,12 @@ const std::vector<BadStereo>& bad_scenes() {
          "mean 'multigrid'?"},
         {"TwoNearLimits", "[stereo]\ncomfort_near_percent = 1\ncomfort_near_deg = 1",
          "give either 'comfort_near_percent' or 'comfort_near_deg', not both"},
-        {"TwoFarLimits", "[stereo]\ncomfort_far_deg = 1\ncomfort_far_percent = 1",
+        {"TwoFarLimits", "[stereo]\ncomfort_far_deg = -1\ncomfort_far_percent = -1",
          "give either 'comfort_far_percent' or 'comfort_far_deg', not both"},
+        {"FarBeforeTheScreen", "[stereo]\ncomfort_far_percent = 2",
+         "'comfort_far_percent' must be in [-100, 0], not 2"},
+        {"RemapTurnedRound", "[stereo]\nremap_near_percent = -2",
+         "'remap_near_percent' must not be less than 'remap_far_percent'"},
         {"NoType", edit(""),
          "[[stereo.edit]] needs 'type': one of \"roundness\", \"anchor\", \"interface\", \"match\""},
         {"NoRoundness", edit("type = \"roundness\"\nobjects = [\"m\"]"), "[[stereo.edit]] needs 'roundness'"},
@@ -199,6 +203,14 @@ void add(Hasher& h, const StereoSettings& s) {
     h.value(s.edit.interfaces).value(s.edit.window_inherited).value(s.edit.limit_folds);
     h.value(s.solver.method).value(s.solver.tolerance_max_px).value(s.solver.max_iterations);
     h.value(s.solver.sweeps).value(s.solver.half_storage).value(s.reproject.tolerance_px);
+    h.value(s.compare_remap.kind)
+        .value(s.compare_remap.nearest_px)
+        .value(s.compare_remap.farthest_px)
+        .value(s.compare_remap.curvature);
+    h.value(s.compare_remap.strength)
+        .value(s.compare_remap.first_px)
+        .value(s.compare_remap.second_px)
+        .value(s.compare_remap.matched_px);
     for (const StereoEdit& e : s.edits) {
         h.bytes(e.name.data(), e.name.size()).value(e.weight).value(e.what.index());
         std::visit(AddWish{h}, e.what);
@@ -228,7 +240,7 @@ const std::vector<std::pair<std::string, std::string>> edit_keys = {
 
 TEST_F(StereoKeys, OfStereoAreRead) {
     const std::string wide = start + "[stereo]\n";
-    expect_all_matter({wide, wide + "comfort_near_deg = 1\ncomfort_far_deg = 1\n"}, "stereo.",
+    expect_all_matter({wide, wide + "comfort_near_deg = 1\ncomfort_far_deg = -1\n"}, "stereo.",
                       stereo_table().keys);
     EXPECT_EQ(fingerprint_of(read_scene_text(start, "a")), fingerprint_of(read_scene_text(wide, "a")))
         << "a scene without [stereo] has its defaults";
@@ -306,10 +318,10 @@ TEST_F(StereoSettingsOf, TheScreenStandsWhereTheCameraLooks) {
 }
 
 TEST_F(StereoSettingsOf, ComfortIsCountedInPixelsOfThePicture) {
-    const EditParams p = settings("[stereo]\ncomfort_near_percent = 2\ncomfort_far_percent = 1").edit;
+    const EditParams p = settings("[stereo]\ncomfort_near_percent = 2\ncomfort_far_percent = -1").edit;
     EXPECT_NEAR(p.comfort.nearest_px, 1.28, 1e-12);
     EXPECT_NEAR(p.comfort.farthest_px, -0.64, 1e-12);
-    const StereoSettings s = settings("[stereo]\ncomfort_near_deg = 1\ncomfort_far_deg = 0.5");
+    const StereoSettings s = settings("[stereo]\ncomfort_near_deg = 1\ncomfort_far_deg = -0.5");
     EXPECT_NEAR(vergence_deg(s.edit.comfort.nearest_px, 64, s.rig), 1, 1e-9);
     EXPECT_NEAR(vergence_deg(s.edit.comfort.farthest_px, 64, s.rig), -0.5, 1e-9);
     EXPECT_LT(settings("[stereo]").edit.comfort.farthest_px, -1e8);

@@ -1,0 +1,40 @@
+#pragma once
+// Which files `obscura stereo` writes.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "stereo/layout.h"
+
+namespace obscura {
+
+/// Comparisons beside the pair, each labelled by the name of its file.
+struct StereoCompare {
+    bool warp = false;      ///< the middle picture warped instead of the scene rendered
+    bool remap = false;     ///< one curve of disparity for the whole picture instead of edits
+    bool unedited = false;  ///< what the rig alone gives
+};
+/// "warp,unedited". Throws UsageError.
+StereoCompare compare_value(const std::string& flag, const std::string& text);
+
+struct StereoFile {
+    std::string role, pattern;
+};
+
+struct StereoFileRequest {
+    std::string output, maps;  ///< -o, --maps
+    StereoLayout layout = StereoLayout::side_by_side;
+    StereoCompare compare;
+    bool several_frames = false;
+};
+
+/// Every file of a frame: NAME.png, or NAME.left.png and NAME.right.png; NAME.warp.png and so on;
+/// PREFIX.before.pfm and so on. Throws UsageError for suffixes other than .png, several frames without ####
+/// in a name, and names that meet.
+std::vector<StereoFile> plan_stereo_files(const StereoFileRequest& request);
+
+/// The file of a role at one frame; the role must be planned.
+std::filesystem::path stereo_path(const std::vector<StereoFile>& files, const std::string& role, int frame);
+
+}  // namespace obscura
