@@ -1,7 +1,7 @@
 #pragma once
 // Disparity as colour: the screen is a light neutral grey, what is in front of it warm, what is behind cool.
 //
-// K. Moreland, "Diverging Color Maps for Scientific Visualization", ISVC 2009, sections 3 and 4: from blue to
+// K. Moreland, "Diverging Color Maps for Scientific Visualization", ISVC 2009: from blue to
 // red over white in polar coordinates of CIELAB, with the hue turned a little near white, so that equal steps
 // look equally large and the middle has no visible crease. Both sides have the same scale here: as deep a red
 // is as far in front as as deep a blue is behind.

@@ -1,12 +1,12 @@
 // Layouts of a stereo pair; see layout.h.
 //
 // Anaglyphs mix light, so all matrices act on linear light and the sRGB curve comes after. Optimised one: E.
-// Dubois, "A Projection Method to Generate Anaglyph Stereo Images", ICASSP 2001, section 3: the anaglyph
+// Dubois, "A Projection Method to Generate Anaglyph Stereo Images", ICASSP 2001: the anaglyph
 // whose spectra, seen through either filter, are nearest in the least-squares sense to those of the two
 // pictures. The spectra of phosphors add up in linear light, so that is what its matrix assumes; many
 // programs apply it to gamma-coded values. The entries are those of the paper's red-cyan filters and CRT
 // phosphors (as W. Sanders and D. McAllister, "Producing Anaglyphs from Synthetic Images", SPIE 5006, 2003,
-// section 5, compute them; our test does so again), each row scaled so that two white pictures give white.
+// compute them; our test does so again), each row scaled so that two white pictures give white.
 // What falls out of [0, 1] is clipped.
 
 #include "stereo/layout.h"

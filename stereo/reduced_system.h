@@ -4,10 +4,10 @@
 // The paper makes its smaller systems from smaller views, "via rendering or sampling" (thesis 4.3.3, 4.3.5).
 // Applied to samples, an edit misses what happens between them: a sphere loses a third of its depth in the
 // last pixels before its outline, so that scaling the difference of two samples, or keeping that at its
-// border, asks for another shape (0.36 px rms of error at 1:8 where the change is 4 px). Here
-// every reduced gradient is the sum of the full ones along the way from sample to sample, as in a chain of
-// springs (0.02 px rms in the same case). The price: the full system must be built, about as much work as
-// solving it; a preview that cannot wait applies edits to reduced(view) and lives with the error.
+// border, asks for another shape (0.36 px rms of error at 1:8 where the change is 4 px). Here every
+// reduced gradient is the sum of the full ones along the way from sample to sample, as in a chain of springs
+// (0.02 px rms in the same case). The price: the full system must be built, about as much work as solving it;
+// a preview that cannot wait applies edits to reduced(view) and lives with the error.
 
 #include "core/isa.h"
 #include "stereo/disparity_system.h"
@@ -17,8 +17,7 @@ namespace obscura {
 
 /// The system of reduced(view, reduction); `full` is of `view`, of full resolution.
 ///
-/// - Values are those of the sampled pixels; gradients sum the changes of gradient on the straight way
-/// between
+/// - Values are those of the sampled pixels; gradients sum the changes of gradient on the way between
 ///   them (a pair with an invalid pixel adds none). An unedited system gives an unedited one.
 /// - A sample's anchor is the sum of its object's in its block; epsilon and the sets' weights grow by the
 ///   area. Squared differences of a smooth map are the same at every scale.

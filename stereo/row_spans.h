@@ -5,7 +5,7 @@
 // x + shift * d, and nothing leaves its row. Neighbours that belong to one smooth surface are joined into a
 // polyline, so that a surface which turns towards the eye is stretched and does not tear; silhouettes are not
 // joined, so that what they uncover stays empty. (After the layered and mesh forms of depth image-based
-// rendering: Mark, McMillan, Bishop, "Post-Rendering 3D Warping", I3D 1997, section 3. Where they join by a
+// rendering: Mark, McMillan, Bishop, "Post-Rendering 3D Warping", I3D 1997. Where they join by a
 // threshold on depth, we compare with the slopes on both sides in disparity, in which planes are straight
 // lines: grazing floors hold together and small steps between surfaces do not.)
 

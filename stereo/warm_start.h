@@ -4,7 +4,7 @@
 // Thesis 4.3.5, "Optimizing Convergence": reprojects the previous disparity map. We carry the change, so that
 // what moved keeps its own disparity; and look it up backwards, from this frame's surfaces to last frame's
 // pixels (as Nehab et al., "Accelerating Real-Time Shading with Reverse Reprojection Caching", Graphics
-// Hardware 2007, section 3, do for shading), so that nothing tears.
+// Hardware 2007, do for shading), so that nothing tears.
 
 #include "core/image.h"
 #include "core/isa.h"

@@ -3,7 +3,7 @@
 //
 // Where only a picture and its disparity are known, this is what can be done (thesis 4.3.4, first paragraph):
 // pixels move, nearer ones win, and what nobody saw is invented. Fehn, "Depth-Image-Based Rendering (DIBR),
-// Compression, and Transmission for a New Approach on 3D-TV", SPIE 5291, 2004, sections 3 and 4. Surfaces are
+// Compression, and Transmission for a New Approach on 3D-TV", SPIE 5291, 2004. Surfaces are
 // moved as joined spans (row_spans.h), so that there are no cracks, only true disocclusions; these take the
 // colour of the farther surface beside them, for what appears behind an outline belongs to the background.
 // The layouts and reports that show it must say that it is warped.
