@@ -18,28 +18,26 @@ float side_of(Eye eye) {
     return eye == Eye::left ? 1.0f : -1.0f;
 }
 
-/// Whether two triangles have a corner in common, by position.
-bool touch(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
+/// Whether two triangles have an edge in common, by position.
+bool joined(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
+    if (a == nothing_seen || b == nothing_seen) return false;
+    int corners = 0;
     for (const std::uint32_t v : mesh.triangles[a].v) {
-        for (const std::uint32_t w : mesh.triangles[b].v) {
-            if (mesh.positions[v] == mesh.positions[w]) return true;
-        }
+        for (const std::uint32_t w : mesh.triangles[b].v)
+            corners += mesh.positions[v] == mesh.positions[w] ? 1 : 0;
     }
-    return false;
+    return corners >= 2;
 }
 
 std::int64_t count_cracks(const Mesh& mesh, const Image<std::uint32_t>& triangle) {
-    const auto joined = [&](std::uint32_t a, std::uint32_t b) {
-        return a != nothing_seen && b != nothing_seen && (a == b || touch(mesh, a, b));
-    };
     std::int64_t cracks = 0;
     for (int y = 0; y < triangle.height; ++y) {
         for (int x = 0; x < triangle.width; ++x) {
             if (triangle(x, y) != nothing_seen) continue;
             const bool across =
-                x > 0 && x + 1 < triangle.width && joined(triangle(x - 1, y), triangle(x + 1, y));
+                x > 0 && x + 1 < triangle.width && joined(mesh, triangle(x - 1, y), triangle(x + 1, y));
             const bool down =
-                y > 0 && y + 1 < triangle.height && joined(triangle(x, y - 1), triangle(x, y + 1));
+                y > 0 && y + 1 < triangle.height && joined(mesh, triangle(x, y - 1), triangle(x, y + 1));
             cracks += across || down ? 1 : 0;
         }
     }

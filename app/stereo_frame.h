@@ -40,7 +40,8 @@ struct EyeMap {
     Image<std::uint32_t> triangle;  ///< of the scene's mesh; nothing_seen where nothing is
     DisparityMap disparity;         ///< as edited; of infinity where nothing is
     DisparityMap original;          ///< as the rig alone has it
-    std::int64_t cracks = 0;  ///< pixels where nothing is though one surface runs on to both sides of them
+    std::int64_t cracks = 0;  ///< pixels where nothing is, between two of one triangle or of two with an edge
+                              ///< in common: what a torn surface would leave
 };
 EyeMap eye_map(const Scene& scene, const TileScene& tiles, const MovedMesh& moved, const StereoRig& rig,
                Eye eye, const Exec& exec);
