@@ -21,12 +21,24 @@ void for_rows(int height, const Exec& exec, Fn&& fn) {
                     });
 }
 
-/// The system as x = (b + pull of neighbours) / diagonal: what Jacobi's method repeats.
-struct JacobiForm {
-    GridPlane b, relax;  ///< relax = 1 / diagonal; 0 where a pixel is not valid
-};
+/// What sets add to a sweep: members follow their source, the source its members.
+void add_sets(const DisparitySystem& s, const JacobiForm& form, const GridPlane& before, GridPlane& after) {
+    for (const MatchingSet& set : s.sets) {
+        if (s.valid(set.source_x, set.source_y) == 0) continue;
+        const float source = before.row(set.source_y)[set.source_x];
+        double pull = 0;
+        for (const MatchedPixel& p : set.members) {
+            if (s.valid(p.x, p.y) == 0 || (p.x == set.source_x && p.y == set.source_y)) continue;
+            after.row(p.y)[p.x] += form.relax.row(p.y)[p.x] * (set.weight * source);
+            pull += static_cast<double>(before.row(p.y)[p.x]);
+        }
+        after.row(set.source_y)[set.source_x] += form.relax.row(set.source_y)[set.source_x] *
+                                                 static_cast<float>(static_cast<double>(set.weight) * pull);
+    }
+}
 
-/// Sums in double what the row loops take in single precision.
+}  // namespace
+
 JacobiForm jacobi_form(const DisparitySystem& s, const Exec& exec) {
     const int width = s.width(), height = s.height();
     JacobiForm form{GridPlane(width, height), GridPlane(width, height)};
@@ -61,24 +73,6 @@ JacobiForm jacobi_form(const DisparitySystem& s, const Exec& exec) {
     });
     return form;
 }
-
-/// What sets add to a sweep: members follow their source, the source its members.
-void add_sets(const DisparitySystem& s, const JacobiForm& form, const GridPlane& before, GridPlane& after) {
-    for (const MatchingSet& set : s.sets) {
-        if (s.valid(set.source_x, set.source_y) == 0) continue;
-        const float source = before.row(set.source_y)[set.source_x];
-        double pull = 0;
-        for (const MatchedPixel& p : set.members) {
-            if (s.valid(p.x, p.y) == 0 || (p.x == set.source_x && p.y == set.source_y)) continue;
-            after.row(p.y)[p.x] += form.relax.row(p.y)[p.x] * (set.weight * source);
-            pull += static_cast<double>(before.row(p.y)[p.x]);
-        }
-        after.row(set.source_y)[set.source_x] += form.relax.row(set.source_y)[set.source_x] *
-                                                 static_cast<float>(static_cast<double>(set.weight) * pull);
-    }
-}
-
-}  // namespace
 
 DisparitySystem halved(const DisparitySystem& fine) {
     const int width = (fine.width() + 1) / 2, height = (fine.height() + 1) / 2;
@@ -168,7 +162,8 @@ Solution solve_cascade(const DisparitySystem& system, const SolverParams& params
         const double before = seconds();
         const DisparitySystem& level = l == 0 ? system : pyramid[l - 1];
         if (l < pyramid.size()) x = upsampled(level, pyramid[l], x, params.printed_sign);
-        x = jacobi_sweeps(level, std::move(x), params.sweeps, exec);
+        x = params.half_storage ? jacobi_sweeps_half(level, std::move(x), params.sweeps, exec)
+                                : jacobi_sweeps(level, std::move(x), params.sweeps, exec);
         report.levels.insert(report.levels.begin(), {level.width(), level.height(), seconds() - before});
         report.steps.push_back({0, 0, 0, seconds()});
         report.iterations += params.sweeps;

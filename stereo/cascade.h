@@ -4,6 +4,7 @@
 // disparities and weights as they are, so what it hands on is the solution of something else; and ten sweeps
 // reach four pixels far. The notes to the printed formula for going up a level are at `printed_sign`.
 
+#include "stereo/grid_plane.h"
 #include "stereo/solver.h"
 
 namespace obscura {
@@ -17,8 +18,19 @@ DisparitySystem halved(const DisparitySystem& system);
 DisparityMap upsampled(const DisparitySystem& fine, const DisparitySystem& coarse, const DisparityMap& x,
                        bool printed_sign);
 
+/// The system as x = (b + pull of neighbours and sets) / diagonal: what Jacobi's method repeats.
+struct JacobiForm {
+    GridPlane b, relax;  ///< relax = 1 / diagonal; 0 where a pixel is not valid
+};
+/// Summed in double, then rounded to what the row loops take.
+JacobiForm jacobi_form(const DisparitySystem& system, const Exec& exec);
+
 /// `sweeps` undamped Jacobi sweeps on the system itself.
 DisparityMap jacobi_sweeps(const DisparitySystem& system, DisparityMap x, int sweeps, const Exec& exec);
+
+/// The same with the map as 16-bit floats between sweeps: half of the memory, a map that is off by up to half
+/// a unit of 2^-10 of its value per sweep (1/64 pixel between 32 and 64 pixels).
+DisparityMap jacobi_sweeps_half(const DisparitySystem& system, DisparityMap x, int sweeps, const Exec& exec);
 
 /// The whole cascade; report.steps has one entry per level, without estimates: there are none to be had.
 Solution solve_cascade(const DisparitySystem& system, const SolverParams& params, const Exec& exec);

@@ -46,6 +46,8 @@ struct alignas(64) LaneSums {
 /// direction_row: x += alpha p_old (x may be null); p = z + beta p_old
 /// apply_row:    q = diagonal p - sum of edge * p_neighbour where relax > 0, else 0. sums: dot p . q, square
 ///               and largest of p
+/// half_row:     floats to IEEE binary16, to nearest, ties to even; beyond 65504 that
+/// float_row:    and back, exact
 #define OBSCURA_GRID_ROWS                                                                                \
     void update_row(const float* r, const float* q, float alpha, const float* relax, int count,          \
                     float* r_out, float* z) noexcept;                                                    \
@@ -63,7 +65,9 @@ struct alignas(64) LaneSums {
     void direction_row(const float* z, const float* p_old, float beta, float alpha, int count, float* x, \
                        float* p) noexcept;                                                               \
     void apply_row(const RowTriple& p, const RowEdges& edges, const float* diagonal, const float* relax, \
-                   int count, float* q, LaneSums& sums) noexcept;
+                   int count, float* q, LaneSums& sums) noexcept;                                        \
+    void half_row(const float* x, int count, std::uint16_t* half) noexcept;                              \
+    void float_row(const std::uint16_t* half, int count, float* x) noexcept;
 namespace ref {
 OBSCURA_GRID_ROWS
 }
