@@ -25,6 +25,14 @@ inline double axis_distance(const Camera& camera, Vec3d p) {
     return dot(p - camera.eye, look_basis(camera.look_at - camera.eye, camera.up).forward);
 }
 
+/// A rig for which things at infinity have exactly minus this disparity.
+inline StereoRig rig_with_offset(const Scene& scene, double interaxial_m, double offset_px) {
+    StereoRig rig;
+    rig.interaxial_m = interaxial_m;
+    rig.zero_parallax_m = disparity_law(rig, scene.camera, scene.render.height).scale / offset_px;
+    return rig;
+}
+
 /// Where an eye sees vertices whose disparity is law + change(vertex).
 inline std::vector<Vec3f> positions_of(const Scene& scene, const StereoRig& rig, Eye eye,
                                        const std::function<double(std::size_t)>& change) {
