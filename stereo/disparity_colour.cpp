@@ -54,12 +54,16 @@ PolarLab diverging(double t) {
 constexpr int half_steps = 512;
 constexpr Rgb8 unknown{24, 24, 24}, tick_colour{16, 16, 16};
 
+std::size_t entry(int step) {
+    const int index = step + half_steps;
+    return static_cast<std::size_t>(index);
+}
+
 const std::array<Rgb8, 2 * half_steps + 1>& table() {
     static const auto colours = [] {
         std::array<Rgb8, 2 * half_steps + 1> t;
         for (int i = -half_steps; i <= half_steps; ++i)
-            t[static_cast<std::size_t>(i + half_steps)] =
-                coded(diverging(i / static_cast<double>(half_steps)));
+            t[entry(i)] = coded(diverging(i / static_cast<double>(half_steps)));
         return t;
     }();
     return colours;
@@ -109,7 +113,7 @@ Rgb8 disparity_colour(double disparity_px, const DisparityColours& colours) {
     const double d = std::clamp(disparity_px, colours.far_px, colours.near_px);
     const double end = std::max(std::abs(colours.far_px), std::abs(colours.near_px));
     const auto step = static_cast<int>(std::floor(d / end * half_steps + 0.5));
-    return table()[static_cast<std::size_t>(step + half_steps)];
+    return table()[entry(step)];
 }
 
 Image<Rgb8> disparity_picture(const DisparityMap& map, const DisparityColours& colours, const Exec& exec) {

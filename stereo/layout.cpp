@@ -145,6 +145,7 @@ std::string_view layout_name(StereoLayout layout) {
 
 std::vector<std::string_view> layout_names() {
     std::vector<std::string_view> all;
+    all.reserve(names.size());
     for (const auto& [layout, name] : names)
         all.push_back(name);
     return all;
