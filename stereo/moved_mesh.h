@@ -35,7 +35,9 @@ struct ReprojectStats {
     double within = 0;  ///< share of visible pixels within the tolerance, as tessellated
 };
 
-/// Gathers vertex changes from `optimised` minus view.disparity and refines until the tolerance holds.
+/// Gathers vertex changes from `optimised` minus view.disparity and refines until the tolerance holds. The
+/// view is of full resolution and of `mesh`; the map is finite where it shows something. The same for any
+/// exec.
 MovedMesh moved_mesh(const Mesh& mesh, const Camera& camera, const MiddleView& view,
                      const DisparityMap& optimised, const ReprojectParams& params, const Exec& exec,
                      ReprojectStats& stats);

@@ -25,9 +25,15 @@ void for_each_pixel(const SeenChange& seen, const Bisection& surface, const Fine
         corner[k] = static_cast<double>(surface.points[t.point[k]].change_px);
     const auto width = static_cast<std::uint32_t>(seen.view.width());
     const std::span<const std::uint32_t> pixels = surface.pixels_of(t);
+    std::uint32_t row = 0, row_begin = 0;
     for (std::size_t i = step / 2; i < pixels.size(); i += step) {
+        // Pixels come row by row: a division is seldom needed.
+        if (pixels[i] - row_begin >= width) {
+            row = pixels[i] / width;
+            row_begin = row * width;
+        }
         double w[3];
-        weights.at(pixels[i] % width + 0.5, pixels[i] / width + 0.5, w);
+        weights.at(pixels[i] - row_begin + 0.5, row + 0.5, w);
         const auto wanted = static_cast<double>(seen.at(pixels[i]));
         fn(w, wanted, wanted - (w[0] * corner[0] + w[1] * corner[1] + w[2] * corner[2]));
     }

@@ -31,16 +31,17 @@ class ScreenWeights {
     /// Weights at a pixel of the map; in [0, 1] for triangles before the camera. Triangles are drawn with
     /// corners snapped to 1/256 pixel, so they may show pixels that lie just beside them.
     void at(double column, double row, double (&weight)[3]) const {
+        for (int k = 0; k < 3; ++k)
+            weight[k] = row_[k][0] * column + row_[k][1] * row + row_[k][2];
+        if (!ahead_ || (weight[0] >= 0 && weight[1] >= 0 && weight[2] >= 0)) return;
         double sum = 0;
-        for (int k = 0; k < 3; ++k) {
-            const double w = row_[k][0] * column + row_[k][1] * row + row_[k][2];
-            weight[k] = ahead_ ? std::clamp(w, 0.0, 1.0) : w;
-            sum += weight[k];
+        for (double& w : weight) {
+            w = std::max(w, 0.0);
+            sum += w;
         }
         for (double& w : weight)
             w /= sum;
     }
-
     /// How fast what is `corner` at the corners changes from pixel to pixel, columns and rows together.
     double slope(const double (&corner)[3]) const {
         const auto along = [&](int i) {

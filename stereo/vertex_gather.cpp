@@ -1,5 +1,7 @@
 #include "stereo/vertex_gather.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -73,6 +75,8 @@ SeenChange seen_change(const Mesh& mesh, const Camera& camera, const MiddleView&
             const std::uint32_t t = view.triangle(x, y);
             CHECK(t == nothing_seen || t < mesh.triangles.size());
             seen.change_px(x, y) -= view.disparity(x, y);
+            CHECK(t == nothing_seen || std::isfinite(seen.change_px(x, y)),
+                  fmt::format("the map at {}, {} is {}", x, y, optimised(x, y)));
             seen.component(x, y) = t == nothing_seen ? nothing_seen : mesh.component[t];
         }
     });

@@ -40,7 +40,7 @@ struct SeenChange {
     double slack(const MapPoint& p) const { return projection.on_map(p) ? 1.0 : 1e6; }
 };
 
-/// CHECKs that the view has triangles and that sizes agree.
+/// CHECKs that the view has triangles, that sizes agree, and that the map is finite where something is seen.
 SeenChange seen_change(const Mesh& mesh, const Camera& camera, const MiddleView& view,
                        const DisparityMap& optimised, int radius_px, const Exec& exec);
 
