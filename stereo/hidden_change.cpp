@@ -101,12 +101,11 @@ Neighbours neighbours(std::span<const Triangle> triangles, const Known& known) {
 
 /// Mean change of those neighbours that count.
 template <class Counts>
-float mean_change(std::span<const std::uint32_t> around, const std::vector<SurfacePoint>& points,
-                  Counts&& counts) {
+float mean_change(std::span<const std::uint32_t> around, const std::vector<float>& change, Counts&& counts) {
     double sum = 0, weight = 0;
     for (const std::uint32_t q : around) {
         if (!counts(q)) continue;
-        sum += static_cast<double>(points[q].change_px);
+        sum += static_cast<double>(change[q]);
         weight += 1;
     }
     return static_cast<float>(sum / weight);
@@ -123,7 +122,9 @@ void spread_over_surface(const SeenChange& seen, std::span<const Triangle> trian
     const auto leads = [&](std::uint32_t p) {
         return known[p] != 0 && (points[p].seen || seen.projection.on_map(points[p].map));
     };
+    std::vector<float> change(points.size());  // apart from all else that a point is, which is much
     for (std::uint32_t p = 0; p < points.size(); ++p) {
+        change[p] = points[p].change_px;
         if (leads(p)) ring[p] = 0;
     }
     const auto join = [&](std::uint32_t p, std::uint32_t r) {
@@ -137,8 +138,8 @@ void spread_over_surface(const SeenChange& seen, std::span<const Triangle> trian
     for (std::uint32_t r = 1; !front.empty(); ++r) {
         parallel_blocks(front.size(), block_points, exec, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                points[front[i]].change_px =
-                    mean_change(around.of(front[i]), points, [&](std::uint32_t q) { return ring[q] < r; });
+                change[front[i]] =
+                    mean_change(around.of(front[i]), change, [&](std::uint32_t q) { return ring[q] < r; });
             }
         });
         hidden.insert(hidden.end(), front.begin(), front.end());
@@ -153,14 +154,16 @@ void spread_over_surface(const SeenChange& seen, std::span<const Triangle> trian
     for (int sweep = 0; sweep < smoothing_sweeps; ++sweep) {
         parallel_blocks(hidden.size(), block_points, exec, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i)
-                smooth[i] = mean_change(around.of(hidden[i]), points,
+                smooth[i] = mean_change(around.of(hidden[i]), change,
                                         [&](std::uint32_t q) { return ring[q] != never; });
         });
         for (std::size_t i = 0; i < hidden.size(); ++i)
-            points[hidden[i]].change_px = smooth[i];
+            change[hidden[i]] = smooth[i];
     }
-    for (const std::uint32_t p : hidden)
+    for (const std::uint32_t p : hidden) {
+        points[p].change_px = change[p];
         known[p] = 1;
+    }
 }
 
 /// The plane through all that is seen of each object, over the map.

@@ -1,6 +1,6 @@
 #include "stereo/surface_points.h"
 
-#include <bit>
+#include <algorithm>
 
 #include "core/edges.h"
 #include "core/error.h"
@@ -17,59 +17,50 @@ constexpr std::uint32_t none = UINT32_MAX;
 /// root, so the order of triangles does not matter.
 class LabelWelder {
   public:
-    LabelWelder(const std::vector<std::uint32_t>& weld, const std::vector<std::uint8_t>& split,
-                std::size_t uses, UnionFind& sets)
-        : weld_(weld), split_(split), sets_(sets), slots_(std::bit_ceil(2 * uses + 1)) {}
+    LabelWelder(const std::vector<std::uint32_t>& weld, UnionFind& sets)
+        : weld_(weld), sets_(sets), first_(weld.size(), none) {}
 
     void add(std::uint32_t vertex, std::uint32_t label) {
-        const std::uint32_t at = weld_[vertex];
-        if (split_[at] == 0) return;
-        std::uint64_t h = (std::uint64_t{at} << 32 | label) * 0xff51afd7ed558ccdu;
-        h ^= h >> 32;
-        for (std::size_t slot = h;; ++slot) {
-            Slot& s = slots_[slot & (slots_.size() - 1)];
-            if (s.vertex == none) {
-                s = {vertex, label};
-                return;
-            }
-            if (weld_[s.vertex] == at && s.label == label) {
-                sets_.unite(s.vertex, vertex);
-                return;
-            }
+        std::uint32_t* at = &first_[weld_[vertex]];
+        while (*at != none && entries_[*at].label != label)
+            at = &entries_[*at].next;
+        if (*at != none) {
+            sets_.unite(entries_[*at].vertex, vertex);
+            return;
         }
+        *at = static_cast<std::uint32_t>(entries_.size());
+        entries_.push_back({label, vertex, none});
     }
 
   private:
-    struct Slot {
-        std::uint32_t vertex = none, label = 0;
+    struct Entry {
+        std::uint32_t label, vertex, next;
     };
     const std::vector<std::uint32_t>& weld_;
-    const std::vector<std::uint8_t>& split_;
     UnionFind& sets_;
-    std::vector<Slot> slots_;
+    std::vector<std::uint32_t> first_;  ///< per position: its list of labels
+    std::vector<Entry> entries_;
 };
 
 /// Sets of vertices that are one point.
 UnionFind one_point(const Mesh& mesh) {
     UnionFind sets(mesh.positions.size());
     const std::vector<std::uint32_t> weld = weld_positions(mesh.positions);
-    // Only where several vertices stand at one place is there anything to decide.
-    std::vector<std::uint8_t> split(weld.size(), 0);
-    for (std::uint32_t v = 0; v < weld.size(); ++v) {
-        if (weld[v] != v) split[weld[v]] = 1;
-    }
-    std::size_t uses = 0;
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t v : t.v)
-            uses += split[weld[v]];
-    }
-    if (uses == 0) return sets;
+    std::vector<std::uint8_t> apart(weld.size());
     for (const std::vector<std::uint32_t>* labels : {&mesh.object, &mesh.component}) {
         if (labels->empty()) continue;
-        LabelWelder welder(weld, split, uses, sets);
+        // Only where several vertices at one place are not yet one is there anything to decide.
+        std::fill(apart.begin(), apart.end(), std::uint8_t{0});
+        for (std::uint32_t v = 0; v < weld.size(); ++v) {
+            if (sets.root(v) != sets.root(weld[v])) apart[weld[v]] = 1;
+        }
+        for (std::uint32_t v = 0; v < weld.size(); ++v)
+            apart[v] = apart[weld[v]];
+        LabelWelder welder(weld, sets);
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            for (const std::uint32_t v : mesh.triangles[t].v)
-                welder.add(v, (*labels)[t]);
+            for (const std::uint32_t v : mesh.triangles[t].v) {
+                if (apart[v] != 0) welder.add(v, (*labels)[t]);
+            }
         }
     }
     return sets;
@@ -83,28 +74,29 @@ SurfacePoints surface_points(const Mesh& mesh, const MapProjection& projection, 
     UnionFind sets = one_point(mesh);
     SurfacePoints s;
     s.of_vertex.resize(mesh.positions.size());
+    std::vector<std::uint32_t> first_vertex, first_triangle;
     for (std::uint32_t v = 0; v < s.of_vertex.size(); ++v) {
         const std::uint32_t root = sets.root(v);
-        if (root == v) {
-            s.of_vertex[v] = static_cast<std::uint32_t>(s.points.size());
-            SurfacePoint& p = s.points.emplace_back();
-            p.position = mesh.positions[v];
-            p.object = p.component = nothing_seen;
-        } else {
-            s.of_vertex[v] = s.of_vertex[root];
-        }
+        s.of_vertex[v] = root == v ? static_cast<std::uint32_t>(first_vertex.size()) : s.of_vertex[root];
+        if (root == v) first_vertex.push_back(v);
     }
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    first_triangle.assign(first_vertex.size(), none);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         for (const std::uint32_t v : mesh.triangles[t].v) {
-            SurfacePoint& p = s.points[s.of_vertex[v]];
-            if (p.component != nothing_seen) continue;
-            p.object = mesh.object.empty() ? 0 : mesh.object[t];
-            p.component = mesh.component[t];
+            std::uint32_t& first = first_triangle[s.of_vertex[v]];
+            if (first == none) first = t;
         }
     }
+    s.points.resize(first_vertex.size());
     parallel_blocks(s.points.size(), 4096, exec, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            s.points[i].map = projection.project(s.points[i].position);
+        for (std::size_t i = begin; i < end; ++i) {
+            SurfacePoint& p = s.points[i];
+            const std::uint32_t t = first_triangle[i];
+            p.position = mesh.positions[first_vertex[i]];
+            p.component = t == none ? nothing_seen : mesh.component[t];
+            p.object = t == none ? nothing_seen : mesh.object.empty() ? 0 : mesh.object[t];
+            p.map = projection.project(p.position);
+        }
     });
     return s;
 }
