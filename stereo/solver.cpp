@@ -1,11 +1,14 @@
 #include "stereo/solver.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "stereo/cascade.h"
 #include "stereo/conjugate_gradients.h"
 #include "stereo/full_multigrid.h"
+#include "stereo/system_parts.h"
 
 namespace obscura {
 namespace {
@@ -50,6 +53,73 @@ void judge(const DisparitySystem& s, const SolverParams& params, const Exec& exe
     solution.report.unsatisfied = unsatisfied(s, solution.disparity);
 }
 
+/// A system all of whose pixels hang together: x becomes its minimiser.
+void solve_connected(const DisparitySystem& system, const SolverParams& params, const Exec& exec,
+                     SolverCache& use, DisparityMap& x, SolveReport& report) {
+    const Clock::time_point start = Clock::now();
+    if (use.levels.levels.empty() || !same_matrix(use.matrix_of, system)) {
+        use.levels = grid_hierarchy(system, exec);
+        use.matrix_of = matrix_part(system);
+    }
+    if (use.vectors != nullptr && use.vectors->x.cells.width() == system.width() &&
+        use.vectors->x.cells.height() == system.height()) {
+        use.vectors->reset(use.levels);
+    } else {
+        use.vectors = std::make_shared<IterationVectors>(use.levels);
+    }
+    LevelSeconds seconds(use.levels.levels.size(), 0.0);
+    report.setup_s = since(start);
+    if (params.method == SolverMethod::fmg) add_first_solution(system, use.levels, exec, x, seconds);
+    iterate(system, use.levels, params, exec, *use.vectors, x, report, seconds);
+    for (std::size_t l = 0; l < seconds.size(); ++l)
+        report.levels.push_back({use.levels.levels[l].width, use.levels.levels[l].height, seconds[l]});
+}
+
+/// The same of one part of a larger system; other pixels of x stay.
+SolveReport solve_part(const DisparitySystem& system, const SystemParts& parts, const SystemPart& part,
+                       const SolverParams& params, const Exec& exec, SolverCache& use, DisparityMap& x) {
+    const DisparitySystem own = part_system(system, parts, part);
+    DisparityMap window(own.width(), own.height());
+    for (int y = 0; y < own.height(); ++y)
+        std::copy_n(x.row(part.y0 + y) + part.x0, own.width(), window.row(y));
+    SolveReport report;
+    solve_connected(own, params, exec, use, window, report);
+    for (int y = 0; y < own.height(); ++y) {
+        for (int i = 0; i < own.width(); ++i) {
+            if (own.valid(i, y) != 0) x(part.x0 + i, part.y0 + y) = window(i, y);
+        }
+    }
+    return report;
+}
+
+/// Each part by itself: the largest on all threads and with the cache, the others side by side. The report is
+/// the largest part's, with the worst estimates of all.
+void solve_parts(const DisparitySystem& system, const SystemParts& parts, const SolverParams& params,
+                 const Exec& exec, SolverCache& use, DisparityMap& x, SolveReport& report) {
+    const std::size_t count = parts.parts.size();
+    report.converged = true;
+    if (count == 0) return;
+    report = solve_part(system, parts, parts.parts[0], params, exec, use, x);
+    std::vector<SolveReport> others(count - 1);
+    // Parts are disjoint, so are their pixels of x; inside of a task there is one thread.
+    parallel_for(count - 1, exec, [&](std::size_t i) {
+        const SystemPart& part = parts.parts[i + 1];
+        if (part.pixels <= small_part) {
+            minimise_part(system, parts, part, x);
+            others[i].converged = true;
+        } else {
+            SolverCache none;
+            others[i] = solve_part(system, parts, part, params, {exec.isa, 1}, none, x);
+        }
+    });
+    for (const SolveReport& other : others) {
+        report.converged = report.converged && other.converged;
+        report.iterations = std::max(report.iterations, other.iterations);
+        report.error_max_px = std::max(report.error_max_px, other.error_max_px);
+        report.error_rms_px = std::max(report.error_rms_px, other.error_rms_px);
+    }
+}
+
 }  // namespace
 
 Solution solve(const DisparitySystem& system, const SolverParams& params, const Exec& exec,
@@ -62,18 +132,6 @@ Solution solve(const DisparitySystem& system, const SolverParams& params, const 
         judge(system, params, exec, solution);
         return solution;
     }
-    SolverCache own;
-    SolverCache& use = cache != nullptr ? *cache : own;
-    if (use.levels.levels.empty() || !same_matrix(use.matrix_of, system)) {
-        use.levels = grid_hierarchy(system, exec);
-        if (cache != nullptr) use.matrix_of = matrix_part(system);
-    }
-    if (use.vectors != nullptr && use.vectors->x.cells.width() == system.width() &&
-        use.vectors->x.cells.height() == system.height()) {
-        use.vectors->reset(use.levels);
-    } else {
-        use.vectors = std::make_shared<IterationVectors>(use.levels);
-    }
     Solution solution;
     SolveReport& report = solution.report;
     solution.disparity = initial.pixels.empty() ? system.start : initial;
@@ -81,14 +139,16 @@ Solution solve(const DisparitySystem& system, const SolverParams& params, const 
     for (std::size_t i = 0; i < solution.disparity.pixels.size(); ++i) {
         if (system.valid.pixels[i] == 0) solution.disparity.pixels[i] = system.start.pixels[i];
     }
-    LevelSeconds seconds(use.levels.levels.size(), 0.0);
-    report.setup_s = since(start);
-    if (params.method == SolverMethod::fmg)
-        add_first_solution(system, use.levels, exec, solution.disparity, seconds);
-    iterate(system, use.levels, params, exec, *use.vectors, solution.disparity, report, seconds);
+    SolverCache own;
+    SolverCache& use = cache != nullptr ? *cache : own;
+    const SystemParts parts = system_parts(system);
+    if (parts.parts.size() == 1 &&
+        parts.parts[0].pixels == static_cast<std::int64_t>(system.valid.pixels.size())) {
+        solve_connected(system, params, exec, use, solution.disparity, report);
+    } else {
+        solve_parts(system, parts, params, exec, use, solution.disparity, report);
+    }
     report.solve_s = since(start) - report.setup_s;
-    for (std::size_t l = 0; l < seconds.size(); ++l)
-        report.levels.push_back({use.levels.levels[l].width, use.levels.levels[l].height, seconds[l]});
     judge(system, params, exec, solution);
     return solution;
 }
