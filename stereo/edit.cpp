@@ -79,21 +79,6 @@ void write_anchors(const MiddleView& view, const ClassMap& map, const std::vecto
                     });
 }
 
-void write_matching_sets(const MiddleView& view, const std::vector<const StereoEdit*>& edits,
-                         const EditParams& params, EditedSystem& result) {
-    for (const StereoEdit* edit : edits) {
-        if (!std::holds_alternative<MatchEdit>(edit->what) || params.match_weight == 0) continue;
-        std::string why_not;
-        std::optional<MatchingSet> set = matching_set(view, result.system.valid, *edit, why_not);
-        if (!set) {
-            result.notices.push_back({edit->name, why_not});
-            continue;
-        }
-        set->weight = static_cast<float>(params.match_weight * area_weight(view) * edit->weight);
-        result.system.sets.push_back(std::move(*set));
-    }
-}
-
 bool is_seen(const ClassMap& map, const EditTarget& target) {
     const std::vector<std::uint8_t> covered = covered_classes(map, target);
     return std::find(covered.begin(), covered.end(), 1) != covered.end();
@@ -141,8 +126,10 @@ EditedSystem edited_system(const MiddleView& view, const std::vector<StereoEdit>
     const std::vector<const StereoEdit*> order = edits_in_order(edits);
     const ClassMap map = classify(view, system.valid, exec);
     const std::vector<ClassShape> shapes = shape_classes(map, system.original, order);
-    system.start = edited_disparity(map, system.original, shapes, exec);
     result.notices = unseen_targets(map, order);
+    if (params.match_weight > 0) system.sets = matching_sets(view, system.valid, order, result.notices);
+    system.start = edited_disparity(map, system.original, shapes, exec);
+    move_members(system.sets, system.start);
 
     // What is wrong with that.
     Conflicts found =
@@ -153,15 +140,22 @@ EditedSystem edited_system(const MiddleView& view, const std::vector<StereoEdit>
     // Terms. Anchors bring D~ to what conflicts allow, so gradients come after them.
     write_anchors(view, map, shapes, params, exec, system);
     write_target_gradients(view, map, shapes, order, params, exec, system);
-    write_matching_sets(view, order, params, result);
+    for (MatchingSet& set : system.sets)
+        set.weight =
+            static_cast<float>(params.match_weight * area_weight(view) * static_cast<double>(set.weight));
     return result;
 }
 
 DisparityMap edited_disparity(const MiddleView& view, const std::vector<StereoEdit>& edits,
                               const Exec& exec) {
-    const ClassMap map = classify(view, valid_pixels(view), exec);
-    return edited_disparity(map, view.disparity, shape_classes(map, view.disparity, edits_in_order(edits)),
-                            exec);
+    const Image<std::uint8_t> valid = valid_pixels(view);
+    const std::vector<const StereoEdit*> order = edits_in_order(edits);
+    const ClassMap map = classify(view, valid, exec);
+    std::vector<EditNotice> notices;
+    DisparityMap edited =
+        edited_disparity(map, view.disparity, shape_classes(map, view.disparity, order), exec);
+    move_members(matching_sets(view, valid, order, notices), edited);
+    return edited;
 }
 
 }  // namespace obscura

@@ -10,6 +10,7 @@
 //   no jumps as a median has. (The law of disparity is monotone: it is the disparity of a middling depth.)
 // - 4.3.3 takes gradients between objects from D~, 4.4 says that interfaces are maintained by default. Both
 //   are here, as EditParams::interfaces; the default is 4.4's, with which all results of the paper were made.
+// - D~ has matching points in it, too: members stand where their source is in D~, plus the target.
 // - Several edits on one pixel: roundness multiplies; anchors' values are averaged by weight, weights add.
 // - Reduced maps have fewer pixels: anchors, matches and epsilon weigh reduction^2 times as much there, so
 //   that the minimiser stays the same up to sampling. (Squared differences of a smooth map do not change.)

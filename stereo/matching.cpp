@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
 #include <variant>
 
 #include "stereo/map_columns.h"
@@ -60,6 +63,40 @@ std::optional<MatchingSet> matching_set(const MiddleView& view, const Image<std:
         }
     }
     return set;
+}
+
+std::vector<MatchingSet> matching_sets(const MiddleView& view, const Image<std::uint8_t>& valid,
+                                       const std::vector<const StereoEdit*>& edits,
+                                       std::vector<EditNotice>& notices) {
+    std::vector<MatchingSet> sets;
+    for (const StereoEdit* edit : edits) {
+        if (!std::holds_alternative<MatchEdit>(edit->what)) continue;
+        std::string why_not;
+        std::optional<MatchingSet> set = matching_set(view, valid, *edit, why_not);
+        if (set)
+            sets.push_back(std::move(*set));
+        else
+            notices.push_back({edit->name, why_not});
+    }
+    return sets;
+}
+
+void move_members(const std::vector<MatchingSet>& sets, DisparityMap& edited) {
+    if (sets.empty()) return;
+    // Several sets of one pixel: the mean of what they want by weight.
+    Image<double> weight(edited.width, edited.height), pull(edited.width, edited.height);
+    for (const MatchingSet& set : sets) {
+        const auto w = static_cast<double>(set.weight);
+        const auto source = static_cast<double>(edited(set.source_x, set.source_y));
+        for (const MatchedPixel& p : set.members) {
+            weight(p.x, p.y) += w;
+            pull(p.x, p.y) +=
+                w * (source + static_cast<double>(p.target) - static_cast<double>(edited(p.x, p.y)));
+        }
+    }
+    for (std::size_t i = 0; i < edited.pixels.size(); ++i)
+        if (const double w = weight.pixels[i]; w > 0)
+            edited.pixels[i] += static_cast<float>(pull.pixels[i] / w * std::min(1.0, w));
 }
 
 }  // namespace obscura

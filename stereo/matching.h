@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "stereo/edit.h"
 
@@ -12,5 +13,16 @@ namespace obscura {
 /// the source or the destination is beyond the map or on nothing, or when both are one pixel.
 std::optional<MatchingSet> matching_set(const MiddleView& view, const Image<std::uint8_t>& valid,
                                         const StereoEdit& edit, std::string& why_not);
+
+/// The sets of all match edits among `edits`, in their order; a notice for each that comes to none.
+std::vector<MatchingSet> matching_sets(const MiddleView& view, const Image<std::uint8_t>& valid,
+                                       const std::vector<const StereoEdit*>& edits,
+                                       std::vector<EditNotice>& notices);
+
+/// Brings members in D~ to where their sets want them, faded in by weight up to 1. The thesis leaves D~
+/// as 4.3 has it; but then gradients from D~ at the members' outline hold all of them where they were, and it
+/// is the lone source pixel that gives way, as a spike. Sources that are members of other sets count as they
+/// were.
+void move_members(const std::vector<MatchingSet>& sets, DisparityMap& edited);
 
 }  // namespace obscura

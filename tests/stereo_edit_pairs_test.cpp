@@ -10,6 +10,7 @@
 
 #include "stereo_edits.h"
 #include "stereo_slabs.h"
+#include "stereo_small_solver.h"
 
 namespace obscura {
 namespace {
@@ -148,6 +149,32 @@ TEST(StereoEditPairs, MatchingSetsAreTheDestinationsObject) {
     EXPECT_EQ(edited_system(view, {edit}, params, {}).system.sets[0].members.size(), 8u);
     paint(view, {10, 0, 12, 6, 2, 0, 0});
     EXPECT_EQ(edited_system(view, {edit}, params, {}).system.sets[0].members.size(), 8u + 4);
+}
+
+TEST(StereoEditPairs, WhatIsMatchedFollowsWithoutDraggingItsSource) {
+    // A box on a wall that is moved back (thesis, figure 4.1), with both kinds of interfaces.
+    MiddleView view = empty_view(48, 24);
+    paint(view, {0, 0, 48, 24, 0, 0, 1, 0.125f});
+    paint(view, {20, 6, 34, 18, 1, 0, 4});
+    const std::vector<StereoEdit> edits = {anchor({0}, -6),
+                                           {"m", 1, MatchEdit{{17.5, 12.5}, {20.5, 12.5}, 0.5}}};
+    EditParams params = plain();
+    params.interfaces = InterfaceGradients::edited;
+    const DisparitySystem s = edited_system(view, edits, params, {}).system;
+    const float box = view.disparity(17, 12) - 6 + 0.5f;
+    EXPECT_FLOAT_EQ(s.start(25, 10), box);
+    EXPECT_EQ(edited_disparity(view, edits), s.start);
+    const Image<double> x = small_minimiser(s);
+    for (std::size_t i = 0; i < x.pixels.size(); ++i)
+        EXPECT_NEAR(x.pixels[i], static_cast<double>(s.start.pixels[i]), 0.02);
+
+    StereoEdit half = edits[1];
+    half.weight = 0.5;
+    EXPECT_FLOAT_EQ(edited_disparity(view, {edits[0], half})(25, 10), (box + 4) / 2);
+    // Two sets: the mean.
+    StereoEdit other = edits[1];
+    std::get<MatchEdit>(other.what).offset_px = 2.5;
+    EXPECT_FLOAT_EQ(edited_disparity(view, {edits[0], other, edits[1]})(25, 10), box + 1);
 }
 
 TEST(StereoEditPairs, WhatCannotBeDoneIsANotice) {
