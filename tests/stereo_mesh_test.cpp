@@ -189,6 +189,20 @@ TEST(MovedMesh, SeamOfTwoObjectsOfOneSurfaceStaysShut) {
     EXPECT_EQ(seam[0], seam[1]);
 }
 
+TEST(MovedMesh, NeighboursOfOtherObjectsDoNotCount) {
+    // Two panels side by side on one plane, edited apart: no border is blurred.
+    Stage s;
+    add(s.mesh, wall(3.998, 5, 6, 6), {-2, 0, 0});
+    add(s.mesh, wall(3.998, 5, 6, 6), {2, 0, 0});
+    s.look();
+    s.edit([](double x, double) { return x < 88 ? -1.0 : 5.0; });
+    const MovedMesh moved = s.moved();
+    EXPECT_EQ(s.stats.triangles_out, s.stats.triangles_in);
+    for (std::size_t v = 0; v < moved.change_px.size(); ++v)
+        EXPECT_NEAR(static_cast<double>(moved.change_px[v]), moved.mesh.positions[v].x < 0 ? -1.0 : 5.0,
+                    1e-5);
+}
+
 TEST(MovedMesh, HiddenWallFollowsTheWallNotWhatHidesIt) {
     Stage s = ball_before_wall(40);
     // The ball comes out by 6 px, the wall leans.
