@@ -203,6 +203,24 @@ TEST(MovedMesh, NeighboursOfOtherObjectsDoNotCount) {
                     1e-5);
 }
 
+TEST(MovedMesh, FartherPartsOfTheSameObjectDoNotCount) {
+    // One object of two panels, one before the other, edited apart: arms before a body.
+    Stage s;
+    add(s.mesh, wall(2, 2, 20, 20), {0, 0, 1});
+    add(s.mesh, wall(8, 6, 80, 60), {0, 0, 0}, false);
+    s.look();
+    ASSERT_EQ(s.mesh.objects.size(), 1u);
+    s.optimised = s.view.disparity;
+    for (std::size_t i = 0; i < s.optimised.pixels.size(); ++i)
+        s.optimised.pixels[i] += s.view.depth_m.pixels[i] < 4.5f ? 6.0f : -2.0f;
+    const MovedMesh moved = s.moved();
+    EXPECT_EQ(s.stats.triangles_out, s.stats.triangles_in);
+    for (std::size_t v = 0; v < moved.change_px.size(); ++v) {
+        EXPECT_NEAR(static_cast<double>(moved.change_px[v]), moved.mesh.positions[v].z > 0.5f ? 6.0 : -2.0,
+                    1e-4);
+    }
+}
+
 TEST(MovedMesh, HiddenWallFollowsTheWallNotWhatHidesIt) {
     Stage s = ball_before_wall(40);
     // The ball comes out by 6 px, the wall leans.
