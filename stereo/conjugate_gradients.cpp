@@ -241,7 +241,7 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
         const DirectionSums sums = new_direction(h, w, beta, alpha, exec);
         if (!(sums.curvature > 0) || !(rz > 0)) {
             // Nothing is left to do, down to the last bit.
-            report.converged = !(rz > 0);
+            report.converged = rz == 0;
             alpha = 0;
             break;
         }

@@ -1,8 +1,10 @@
 #include "stereo/disparity_system.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "core/error.h"
+#include "core/parallel.h"
 
 namespace obscura {
 namespace {
@@ -54,19 +56,24 @@ void check(const DisparitySystem& s, const DisparityMap& x) {
 
 }  // namespace
 
-DisparitySystem unedited_system(const DisparityMap& original, const Image<std::uint8_t>& valid) {
+DisparitySystem unedited_system(const DisparityMap& original, const Image<std::uint8_t>& valid,
+                                const Exec& exec) {
     const int width = original.width, height = original.height;
     DisparitySystem s;
     s.original = s.start = original;
     s.valid = valid.pixels.empty() ? Image<std::uint8_t>(width, height, 1) : valid;
     CHECK(s.valid.width == width && s.valid.height == height);
     s.gradient_x = s.gradient_y = s.anchor_weight = s.anchor_value = Image<float>(width, height);
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (x + 1 < width) s.gradient_x(x, y) = original(x + 1, y) - original(x, y);
-            if (y + 1 < height) s.gradient_y(x, y) = original(x, y + 1) - original(x, y);
+    parallel_blocks(static_cast<std::size_t>(height), 32, exec, [&](std::size_t begin, std::size_t end) {
+        for (auto y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            const float *here = original.row(y), *below = original.row(std::min(y + 1, height - 1));
+            float *right = s.gradient_x.row(y), *down = s.gradient_y.row(y);
+            for (int x = 0; x + 1 < width; ++x)
+                right[x] = here[x + 1] - here[x];
+            for (int x = 0; x < width; ++x)
+                down[x] = below[x] - here[x];
         }
-    }
+    });
     return s;
 }
 

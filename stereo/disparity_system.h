@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/image.h"
+#include "core/isa.h"
 #include "stereo/middle_view.h"
 
 namespace obscura {
@@ -60,7 +61,8 @@ struct DisparitySystem {
 
 /// A system without edits: gradients and anchors of `original` itself, everything valid or as in `valid` (may
 /// be empty). Its minimiser is `original`.
-DisparitySystem unedited_system(const DisparityMap& original, const Image<std::uint8_t>& valid);
+DisparitySystem unedited_system(const DisparityMap& original, const Image<std::uint8_t>& valid,
+                                const Exec& exec = {});
 
 /// E(x) in double.
 double energy(const DisparitySystem& system, const DisparityMap& x);

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "stereo/anchor_areas.h"
 #include "stereo/edit_classes.h"
 #include "stereo/edit_shape.h"
 #include "stereo/map_columns.h"
@@ -118,7 +119,7 @@ EditedSystem edited_system(const MiddleView& view, const std::vector<StereoEdit>
     check(view, params);
     EditedSystem result;
     DisparitySystem& system = result.system;
-    system = unedited_system(view.disparity, valid_pixels(view));
+    system = unedited_system(view.disparity, valid_pixels(view), exec);
     system.gradient_weight = static_cast<float>(params.gradient_weight);
     system.epsilon = static_cast<float>(params.epsilon * area_weight(view));
 
@@ -139,6 +140,7 @@ EditedSystem edited_system(const MiddleView& view, const std::vector<StereoEdit>
 
     // Terms. Anchors bring D~ to what conflicts allow, so gradients come after them.
     write_anchors(view, map, shapes, params, exec, system);
+    system.anchors = anchor_areas(map, shapes, order, params, system);
     write_target_gradients(view, map, shapes, order, params, exec, system);
     for (MatchingSet& set : system.sets)
         set.weight =
