@@ -19,6 +19,7 @@ namespace obscura {
 struct FrameOptions {
     Region crop;  ///< pixels of the whole picture; empty (width or height 0) = all of it
     bool depth = false, normal = false, albedo = false, object = false, shadow = false;  ///< AOVs wanted
+    bool shift = false;  ///< of eyes: Frame::shift_px
     /// Share of the work done, tiles and the lens's pattern, rising to 1; called from any thread, one call at
     /// a time, some hundred times.
     std::function<void(double)> progress;
@@ -76,12 +77,19 @@ struct Frame {
     Image<float> depth_m;         ///< metres along the view axis; infinity where nothing is
     Image<Vec3f> normal;          ///< world space, unit, towards the viewer; 0 where nothing is
     Image<std::uint32_t> object;  ///< index into Mesh::objects; no_object where nothing is
+    /// How many pixels further right the scene's camera sees what an eye does; 0 where nothing is.
+    Image<float> shift_px;
     // Means of the pixel's samples:
-    Image<Vec3f> albedo;    ///< base colour times texture, linear; 0 where nothing is
-    Image<float> shadow;    ///< visibility, averaged over the lights with shadows; surfaces that face away
-                            ///< count 0; 1 where nothing is, or without such lights
+    Image<Vec3f> albedo;  ///< base colour times texture, linear; 0 where nothing is
+    Image<float> shadow;  ///< visibility, averaged over the lights with shadows; surfaces that face away
+                          ///< count 0; 1 where nothing is, or without such lights
+    Vec3d
+        lens_offset_m;  ///< where the picture's lens is, from the camera's eye: that of the eye that sees it
     bool complete = false;  ///< false: cancelled
     FrameStats stats;
+    double shift_at(int x, int y) const {
+        return shift_px.width > 0 ? static_cast<double>(shift_px(x, y)) : 0.0;
+    }
 };
 
 }  // namespace obscura

@@ -121,6 +121,7 @@ void crop_frame(const Region& crop, Frame& frame) {
     crop_channel(crop, frame.normal);
     crop_channel(crop, frame.albedo);
     crop_channel(crop, frame.object);
+    crop_channel(crop, frame.shift_px);
     crop_channel(crop, frame.shadow);
     frame.x0 = crop.x0;
     frame.y0 = crop.y0;

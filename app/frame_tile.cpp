@@ -36,6 +36,17 @@ Vec3f albedo_of(const TileScene& scene, const SurfaceBlock& s, int at) {
     return textured ? base * Vec3f{s.texel_r[at], s.texel_g[at], s.texel_b[at]} : base;
 }
 
+/// From a sample's own column to where the camera sees the point that it shows, in pixels to the right.
+float shift_of(const CameraRays& rays, const SurfaceBlock& s, int at, double column) {
+    const auto axis = [](const double(&v)[3]) { return Vec3d{v[0], v[1], v[2]}; };
+    const Vec3d p = to_double(Vec3f{s.px[at], s.py[at], s.pz[at]}), right = axis(rays.dir_x);
+    const Vec3d forward = cross(axis(rays.dir_y), right);
+    // p = z (dir0 + X dir_x + Y dir_y); dir_x is at right angles to dir_y and to what is straight ahead.
+    const double z = dot(p, forward) / dot(axis(rays.dir0), forward);
+    const Vec3d aside = p * (1.0 / z) - axis(rays.dir0);
+    return static_cast<float>(dot(aside, right) / dot(right, right) - column);
+}
+
 /// Channels other than radiance, of one block of one sample.
 void write_channels(const TileScene& scene, const TileRect& tile, int first_row, const TileWindow& window,
                     int sample, const TileWork& work, const FrameOptions& wanted, Frame& frame) {
@@ -52,6 +63,9 @@ void write_channels(const TileScene& scene, const TileRect& tile, int first_row,
                                                     : std::numeric_limits<float>::infinity();
                 }
                 if (wanted.normal && covered) frame.normal(px, py) = {s.nx[at], s.ny[at], s.nz[at]};
+                if (wanted.shift && covered) {
+                    frame.shift_px(px, py) = shift_of(scene.rays, s, at, tile.x0 + x + tile.sample_x / 256.0);
+                }
                 if (wanted.object) {
                     const auto& object = scene.mesh->object;
                     frame.object(px, py) = covered && !object.empty() ? object[s.triangle[at]] : no_object;
@@ -154,8 +168,8 @@ void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work) {
 
 std::int64_t render_tile(const TileScene& scene, int column, int row, const FrameOptions& options, Isa isa,
                          TileWork& work, Frame& frame) {
-    const bool channels =
-        options.depth || options.normal || options.albedo || options.object || options.shadow;
+    const bool channels = options.depth || options.normal || options.albedo || options.object ||
+                          options.shadow || options.shift;
     const auto samples = static_cast<int>(scene.pattern.size());
     std::int64_t covered = 0;
     TileRect tile;

@@ -46,6 +46,7 @@ void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
     set_channel(frame.normal, options.normal, frame);
     set_channel(frame.albedo, options.albedo, frame);
     set_channel(frame.object, options.object, frame);
+    set_channel(frame.shift_px, options.shift, frame);
     set_channel(frame.shadow, options.shadow, frame);
 }
 

@@ -82,6 +82,7 @@ void render_picture(const Scene& scene, const TileScene& tiles, const FrameOptio
     FrameOptions wanted = options;
     wanted.depth |= wants_source_kernels(scene.optics);
     wanted.object |= wants_source_kernels(scene.optics);
+    wanted.shift |= tiles.surface.seen != nullptr && wants_source_kernels(scene.optics);
     size_frame(scene.optics.enabled ? whole : crop, wanted, frame);
     // A pattern may take longer than the picture: half of the progress is its own.
     const bool has_glare = scene.optics.enabled && options.progress;
@@ -93,6 +94,7 @@ void render_picture(const Scene& scene, const TileScene& tiles, const FrameOptio
     if (has_glare && frame.complete) options.progress(1);
     if (!options.depth) frame.depth_m = {};
     if (!options.object) frame.object = {};
+    if (!options.shift) frame.shift_px = {};
     if (scene.optics.enabled) crop_frame(crop, frame);
 }
 
@@ -101,6 +103,7 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     const Stopwatch total;
     frame.stats = FrameStats{};
     frame.stats.triangles = static_cast<std::int64_t>(scene.mesh.triangles.size());
+    frame.lens_offset_m = {};
     const MemoryEstimate memory = estimate_memory(scene);
     frame.stats.bytes = memory.total();
     check_memory(memory, scene.limits, "the frame");

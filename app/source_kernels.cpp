@@ -73,13 +73,14 @@ std::map<std::uint32_t, std::vector<LampPixel>> lamp_pixels(const Scene& scene, 
                                                             double clip) {
     std::map<std::uint32_t, std::vector<LampPixel>> found;
     const std::vector<bool> lamps = lamps_of(scene, clip);
-    const CameraRays rays = camera_rays(scene.camera, scene.render.width, scene.render.height);
+    const CameraRays rays = camera_rays(scene.camera, frame.width, frame.height);
     for (int y = 0; y < frame.height; ++y) {
         for (int x = 0; x < frame.width; ++x) {
             int i = x, j = y;
             if (!clips(frame, x, y, clip) || !lamp_near(frame, lamps, i, j)) continue;
             // The lamp's depth in the pixel's own direction.
-            const double z = static_cast<double>(frame.depth_m(i, j)), X = x + 0.5, Y = y + 0.5;
+            const double z = static_cast<double>(frame.depth_m(i, j)), X = x + 0.5 + frame.shift_at(i, j),
+                         Y = y + 0.5;
             const auto along = [&](int k) {
                 return rays.eye[k] + z * (rays.dir0[k] + X * rays.dir_x[k] + Y * rays.dir_y[k]);
             };
@@ -213,7 +214,7 @@ class HiddenLamps {
           clip_(clip),
           aperture_(aperture),
           exec_(exec),
-          pupil_(pupil_plane(scene.camera, pupil_m(scene.optics))),
+          pupil_(pupil_plane(scene.camera, pupil_m(scene.optics), frame.lens_offset_m)),
           survey_(survey_of(aperture.mask)) {}
 
     void add(const std::vector<LampPixel>& pixels, SourceKernels& to) const {

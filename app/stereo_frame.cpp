@@ -144,6 +144,10 @@ bool render_eyes(const Scene& scene, const MovedMesh& moved, EyePositions positi
     for (const LightShadow& shadow : cache.frame.shadows)
         shared.lights.push_back(shadow.stats);
 
+    const Vec3d half =
+        look_basis(scene.camera.look_at - scene.camera.eye, scene.camera.up).right * (0.5 * rig.interaxial_m);
+    out.left.lens_offset_m = -half;
+    out.right.lens_offset_m = half;
     const double step = middle ? 1.0 / 3 : 0.5;
     render_one(scene, pictures[0], wanted, 0, step, exec, cache, shared, out.left);
     render_one(scene, pictures[1], wanted, step, 2 * step, exec, cache, shared, out.right);

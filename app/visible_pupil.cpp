@@ -76,9 +76,9 @@ void hide(const Polygon& polygon, Image<std::uint8_t>& open) {
 
 }  // namespace
 
-PupilPlane pupil_plane(const Camera& camera, double side_m) {
+PupilPlane pupil_plane(const Camera& camera, double side_m, Vec3d offset_m) {
     const Basis basis = look_basis(normalize(camera.look_at - camera.eye), camera.up);
-    return {camera.eye, basis.right, -basis.up, basis.forward, side_m, camera.near_m};
+    return {camera.eye + offset_m, basis.right, -basis.up, basis.forward, side_m, camera.near_m};
 }
 
 std::vector<std::uint32_t> between(const Mesh& mesh, const PupilPlane& pupil, Vec3d centre, double radius) {

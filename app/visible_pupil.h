@@ -21,7 +21,8 @@ struct PupilPlane {
     double side_m = 0;
     double near_m = 0;  ///< nothing nearer than this hides anything: the camera does not see it either
 };
-PupilPlane pupil_plane(const Camera& camera, double side_m);
+/// `offset_m`: of its centre from the camera's eye, world.
+PupilPlane pupil_plane(const Camera& camera, double side_m, Vec3d offset_m = {});
 
 /// Triangles that may come between the pupil and a ball that holds the points asked for.
 std::vector<std::uint32_t> between(const Mesh& mesh, const PupilPlane& pupil, Vec3d centre, double radius);

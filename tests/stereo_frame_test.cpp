@@ -274,17 +274,47 @@ TEST(EyesLight, GlareIsAddedToEach) {
     EXPECT_EQ(hash(plain), hash(glaring));
 }
 
+TEST(EyesLight, LampsAreHiddenFromTheLensOfEach) {
+    // A lamp at 10 m, half behind a post at 3 m.
+    Scene scene = empty_scene(96, 64);
+    scene.materials.resize(2);
+    scene.materials[1].emission = {500, 500, 500};
+    add(scene, sphere(0.1, 48, 24), 1, {0, 0, -10});
+    add(scene, box({0.03, 4, 0.03}), 0, {0.02f, 0, -3});
+    scene.camera = {CameraKind::perspective, {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 3.4, 10, 0.05};
+    scene.optics.enabled = true;
+    scene.optics.aperture = "circle";
+    scene.optics.focal_length_mm = 400;
+    scene.optics.mask_px = 32;
+    scene.optics.wavelengths = 1;
+    scene.optics.radius_px = 8;
+    scene.optics.visibility = PupilVisibility::exact;
+    // Infinity's disparity is a whole number of pixels each way, so that all pictures sample the lamp alike.
+    const StereoRig rig = rig_with_offset(scene, 0.03, 4);
+    EyesCache cache;
+    EyeFrames eyes;
+    ASSERT_TRUE(render_eyes(scene, unrefined(scene), unedited(scene, rig), rig, {}, 0, {}, cache, eyes));
+    const auto blocked = [](const Frame& frame) { return frame.stats.glare->blocked; };
+    const double left = blocked(render_frame(beside(scene, rig, Eye::left, 0))),
+                 right = blocked(render_frame(beside(scene, rig, Eye::right, 0)));
+    EXPECT_GT(std::fabs(left - right), 0.1 * left);
+    EXPECT_NEAR(blocked(eyes.left), left, 0.01 * left);
+    EXPECT_NEAR(blocked(eyes.right), right, 0.01 * right);
+    EXPECT_EQ(eyes.left.shift_px.width, 0) << "channels that nobody wanted are gone";
+}
+
 // ---- Bits.
 
 TEST(Eyes, SameBitsForAnyExec) {
     for (const int samples : {1, 4, 16}) {
         Scene scene = everything(samples);
-        scene.render.width = 100;
-        scene.render.height = 65;
+        scene.render.width = 80;
+        scene.render.height = 50;
         const StereoRig rig = rig_with_offset(scene, 0.2, 14);
         EyesCache first;
         const std::uint64_t expected = hash(eye_picture(scene, rig, Eye::left, first, {Isa::ref, 1}));
         for (const Isa isa : supported_isas()) {
+            if (samples == 16 && isa != best_isa()) continue;
             EyesCache cache;
             EXPECT_EQ(hash(eye_picture(scene, rig, Eye::left, cache, {isa, 2})), expected)
                 << samples << " " << isa_name(isa);
