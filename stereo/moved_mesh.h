@@ -16,20 +16,22 @@ namespace obscura {
 /// A conforming refinement of a mesh. Its triangles lie in those of the original; objects, materials, corner
 /// attributes are inherited. Vertices are shared as in the original: no T-junctions.
 struct MovedMesh {
-    Mesh mesh;                          ///< with material, object, component, face, faces of the original's
+    Mesh mesh;  ///< with material, object, component, face, faces of the original's. What is closed stays
+                ///< closed; Component::open_edges counts those of the original
     std::vector<std::uint32_t> source;  ///< per triangle: the original's
     std::vector<float> change_px;       ///< per vertex: optimised minus original disparity
 };
 
 struct ReprojectParams {
     double tolerance_px = 0.1;  ///< piecewise-linear disparity against the map, at visible pixels
-    int max_splits = 20;        ///< bisections of one triangle, most
-    std::int64_t max_triangles = 50'000'000;
-    int radius_px = 2;  ///< of the cross-bilateral gather
+    int max_splits = 20;        ///< bisections of one triangle; a few more where neighbours ask for it
+    std::int64_t max_triangles = 50'000'000;  ///< no cut is begun beyond
+    int radius_px = 2;                        ///< of the cross-bilateral gather
 };
 
 struct ReprojectStats {
-    std::int64_t vertices_seen = 0, vertices_hidden = 0;  ///< hidden: by the difference rule
+    /// Points, copies of a vertex counted once, those of cuts included. Hidden: by the difference rule.
+    std::int64_t vertices_seen = 0, vertices_hidden = 0;
     std::int64_t triangles_in = 0, triangles_out = 0;
     int rounds = 0;
     double within = 0;  ///< share of visible pixels within the tolerance, as tessellated
