@@ -11,6 +11,7 @@
 #include "bench/diffraction_bench.h"
 #include "bench/raster_bench.h"
 #include "bench/shadow_bench.h"
+#include "bench/stereo_bench.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -24,13 +25,14 @@ int run_bench(const Arguments& arguments) {
     std::int64_t runs = options.runs, threads = 0;
     flags.positional("NAME", name,
                      "What to measure: raster (light views, dual depths and a shaded frame), shadows (dense "
-                     "and compressed maps against exact rays) or diffraction (far and near fields).");
+                     "and compressed maps against exact rays), diffraction (far and near fields) or stereo "
+                     "(solvers of disparity maps).");
     flags.group("Measurement");
     flags.whole("--runs", "N", runs, 1, 1000, "Timed runs of each job after one to warm up.",
                 std::to_string(runs));
     flags.whole("-t,--threads", "N", threads, 1, 1024, "Measure with this many threads only.", "1 and 2");
-    flags.text("--scene", "TEXT", options.scene, "Only scenes (or apertures) whose name contains this.",
-               "all");
+    flags.text("--scene", "TEXT", options.scene,
+               "Only scenes (apertures, hard cases) whose name contains this.", "all");
     flags.text("--data", "DIR", data,
                "Folder of test data (meshes, cities, apertures); without it they are left out.", "none");
     flags.text("--part", "NAME", part, "shadows: times, accuracy or sizes alone.", "all");
@@ -38,9 +40,9 @@ int run_bench(const Arguments& arguments) {
     flags.group("Output");
     flags.text("-o,--output", "DIR", out, "Folder for tables and charts.", out);
     if (!flags.parse(arguments)) return 0;
-    if (name != "raster" && name != "shadows" && name != "diffraction") {
+    if (name != "raster" && name != "shadows" && name != "diffraction" && name != "stereo") {
         throw UsageError(fmt::format("there is no bench '{}'{} (see 'obscura bench --help')", name,
-                                     hint(name, {"raster", "shadows", "diffraction"})));
+                                     hint(name, {"raster", "shadows", "diffraction", "stereo"})));
     }
     if (!part.empty() && (name != "shadows" || (part != "times" && part != "accuracy" && part != "sizes")))
         throw UsageError(fmt::format("bench {} has no part '{}'", name, part));
@@ -54,6 +56,7 @@ int run_bench(const Arguments& arguments) {
     };
     if (name == "raster") return bench_raster(options);
     if (name == "diffraction") return bench_diffraction(options);
+    if (name == "stereo") return bench_stereo(options);
     const bool all = part.empty();
     return bench_shadows(options,
                          {all || part == "times", all || part == "accuracy", all || part == "sizes"});

@@ -7,6 +7,7 @@
 #include "bench/diffraction_report.h"
 #include "bench/gnuplot.h"
 #include "bench/shadow_report.h"
+#include "bench/stereo_report.h"
 
 namespace obscura {
 namespace {
@@ -73,6 +74,7 @@ MethodStyle method_style(const std::string& method) {
     if (method == compressed_name) return {"#0072B2", 6, 7};
     if (method == dense_name) return {"#D55E00", 4, 5};
     if (const auto diffraction = diffraction_style(method)) return *diffraction;
+    if (const auto stereo = stereo_style(method)) return *stereo;
     return {"#009E73", 8, 9};
 }
 

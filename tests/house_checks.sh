@@ -38,6 +38,8 @@ check_doors() {
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
     door 'Embree, OSMesa' 'embree|GL/' 'bench/.*'
     door FFTW 'fftw3' 'bench/peer_fftw\.cpp'
+    door CHOLMOD 'cholmod' 'bench/peer_cholmod\.cpp'
+    door Eigen 'Eigen/' 'bench/peer_eigen\.cpp|tests/stereo_truth_test\.cpp'
     door 'wide intrinsics' '(imm|avx[a-z0-9_]*|x86)intrin\.h' 'core/simd(_[a-z]+)?\.h|bench/.*'
 }
 
