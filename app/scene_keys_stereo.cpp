@@ -226,6 +226,12 @@ std::vector<VariantSpec> edit_variants() {
                  number_key("radius_px", "Of the disc that moves along; 0: the destination's whole object.")
                      .in({0, 1e5})
                      .or_else(0.0),
+                 boolean_key(
+                     "hold_source",
+                     "The source's whole object, or the disc of radius_px around it, keeps its "
+                     "distance to the source. Without, the source alone may be drawn out to where the "
+                     "destination is.")
+                     .or_else(true),
                  boolean_key("any_object", "With radius_px: other objects within it move along, too.")
                      .or_else(false)}},
     };

@@ -209,8 +209,12 @@ std::optional<decltype(StereoEdit::what)> wish_of(const Reader& r, const SceneTa
                              boolean(edit, "keep")};
     const auto source = point_of(r, edit, "source"), destination = point_of(r, edit, "destination");
     if (!source || !destination) return std::nullopt;
-    return MatchEdit{*source, *destination, offset_of(r, edit), number(edit, "radius_px") * r.px,
-                     boolean(edit, "any_object")};
+    return MatchEdit{*source,
+                     *destination,
+                     offset_of(r, edit),
+                     number(edit, "radius_px") * r.px,
+                     boolean(edit, "any_object"),
+                     boolean(edit, "hold_source")};
 }
 
 void add_edit(Reader& r, const SceneTable& edit) {

@@ -63,6 +63,9 @@ struct MatchEdit {
     double offset_px = 0;
     double radius_px = 0;     ///< around the destination; 0: all of the destination's object
     bool any_object = false;  ///< with a radius: other objects within it follow too
+    /// What is around the source, as far as the edit reaches around its destination, keeps its distance to
+    /// it. Without, the cheapest way to match is to draw the source's one pixel out like a needle.
+    bool hold_source = false;
 };
 
 /// Factors of an edit's weight that follow the camera: each is 1 at the first number and 0 at the second,

@@ -190,7 +190,8 @@ struct AddWish {
             .value(e.destination_px)
             .value(e.offset_px)
             .value(e.radius_px)
-            .value(e.any_object);
+            .value(e.any_object)
+            .value(e.hold_source);
     }
 };
 
