@@ -130,6 +130,7 @@ EditedSystem edited_system(const MiddleView& view, const std::vector<StereoEdit>
     result.notices = unseen_targets(map, order);
     if (params.match_weight > 0) system.sets = matching_sets(view, system.valid, order, result.notices);
     system.start = edited_disparity(map, system.original, shapes, exec);
+    if (params.match_weight > 0) hold_sources(view, system.valid, system.start, order, system.sets);
     move_members(system.sets, system.start);
 
     // What is wrong with that.
