@@ -106,6 +106,8 @@ void expect_faithful(const StereoPair& pair) {
 TEST(StereoPair, ShowsTheEditedMap) {
     const StereoPair pair = pair_of(room(), edited_settings());
     expect_faithful(pair);
+    EXPECT_TRUE(pair.solution.report.converged);
+    EXPECT_GT(pair.moved.mesh.triangles.size(), room().mesh.triangles.size());
     // The edits did something.
     float most = 0;
     for (std::size_t i = 0; i < pair.optimised.pixels.size(); ++i)
