@@ -80,7 +80,8 @@ int run_stereo(const Arguments& arguments) {
     flags.whole("--map-scale", "N", map_scale, 1, 8, "Solve at 1 : N of the picture: 1, 2, 4 or 8.",
                 "the scene's");
     flags.on_off("--preview", options.preview,
-                 "Pictures a quarter as wide and high, one sample per pixel: for a quick look at edits.");
+                 "Pictures a quarter as wide and high, one sample per pixel, coarse shadows: for a quick "
+                 "look at edits.");
     add_exec_flags(flags, threads, isa);
     flags.group("Messages");
     flags.on_off("-q,--quiet", options.quiet, "Say nothing but errors.");

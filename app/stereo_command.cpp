@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <new>
 
@@ -93,6 +94,22 @@ void shrink_for_preview(Scene& scene) {
     scene.render.width = (scene.render.width + preview_scale - 1) / preview_scale;
     scene.render.height = (scene.render.height + preview_scale - 1) / preview_scale;
     scene.render.samples = 1;
+}
+
+/// Sets the scene to a frame. A preview's shadows are coarse dense maps, which are made in no time.
+void set_stereo_frame(Scene& scene, const StereoPlan& plan, const StereoOptions& options, int frame) {
+    set_frame(scene, plan.document, frame);
+    if (!options.preview) return;
+    scene.render.samples = 1;
+    for (Light& light : scene.lights) {
+        ShadowSettings& shadow = light.shadow;
+        if (shadow.method == ShadowMethod::none) continue;
+        const int most = light.kind == LightKind::point ? 512 : 2048;
+        const bool automatic = shadow.resolution == auto_resolution;
+        shadow.method = ShadowMethod::map;
+        shadow.resolution = automatic ? most : std::min(shadow.resolution, most);
+        shadow.filter_px = std::min(shadow.filter_px, 3);
+    }
 }
 
 /// One run of the command: what its frames share.
@@ -188,8 +205,7 @@ void say_frame(const StereoFrameReport& report) {
 }
 
 void render_one(Run& run, int number, StereoReport& report) {
-    set_frame(run.scene, run.plan.document, number);
-    if (run.options.preview) run.scene.render.samples = 1;
+    set_stereo_frame(run.scene, run.plan, run.options, number);
     const StereoSettings settings = settings_of(run, number);
     const StereoPair pair = in_stage(fmt::format("rendering frame {}", number),
                                      [&] { return make_pair(run, settings, run.cache, true); });
@@ -229,7 +245,7 @@ int stereo_command(const StereoOptions& options) {
 
     Run run{options, plan, scene, access, {stderr, Progress::style_for(stderr, options.quiet)}, {}, {}};
     // Names that the scene does not have, and what will not fit, are told before the first tile.
-    set_frame(scene, plan.document, plan.frames.front());
+    set_stereo_frame(scene, plan, options, plan.frames.front());
     MemoryEstimate memory = estimate_memory(scene);
     memory.frame += stereo_bytes(scene, settings_of(run, plan.frames.front()));
     check_memory(memory, scene.limits, plan.document.sources[0]);
