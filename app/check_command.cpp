@@ -13,6 +13,7 @@
 #include "app/render_frame.h"
 #include "app/scene_build.h"
 #include "app/shadow_text.h"
+#include "app/stereo_settings.h"
 #include "raster/shadow_map.h"
 #include "raster/view.h"
 
@@ -34,7 +35,8 @@ std::string picture_text(const SceneDocument& document, const Scene& scene) {
     const FrameRange range = scene_frames(document);
     const SceneTable& frames = subtable(document.root, "frames");
     const std::size_t keyframes = subtables(frames, "camera").size() + subtables(frames, "light").size() +
-                                  subtables(frames, "optics").size();
+                                  subtables(frames, "optics").size() + subtables(frames, "stereo").size() +
+                                  subtables(frames, "stereo_edit").size();
     std::string out = fmt::format("picture   {} x {} pixels, {} sample{} each, exposure {:+.4g} EV\n",
                                   scene.render.width, scene.render.height, scene.render.samples,
                                   scene.render.samples == 1 ? "" : "s", scene.render.exposure_ev);
@@ -160,13 +162,17 @@ std::string memory_text(const Scene& scene) {
 
 std::string check_report(const CheckOptions& options) {
     const SceneDocument document = read_scene(options.scene, options.overrides);
-    Scene scene = build_scene(document, FileAccess{document.folder, options.allowed_paths});
+    const FileAccess access{document.folder, options.allowed_paths};
+    Scene scene = build_scene(document, access);
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
     const auto found = settle_resolutions(scene, Exec{});
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         out += light_text(scene.lights[i], found[i], scene);
     out += lens_text(scene.optics, scene.render);
+    if (document.root.has("stereo")) {
+        out += stereo_text(stereo_settings(document, scene, scene_frames(document).first, access), scene);
+    }
     return out + mesh_text(scene) + memory_text(scene) + "ok\n";
 }
 

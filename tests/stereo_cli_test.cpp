@@ -179,6 +179,15 @@ TEST_F(StereoCli, ContradictionsAreNamed) {
     EXPECT_NE(made.err.find("pulls edit 'back'"), std::string::npos) << made.err;
 }
 
+TEST_F(StereoCli, CheckTellsOfTheEyesAndTheEdits) {
+    const Outcome checked = run_in(folder, {"check", "s.toml"});
+    ASSERT_EQ(checked.code, 0) << checked.err;
+    EXPECT_NE(checked.out.find("eyes 200 mm apart, screen at 7 m; what is far away has -2.175 px"),
+              std::string::npos)
+        << checked.out;
+    EXPECT_NE(checked.out.find("edit      round: roundness, weight 1"), std::string::npos) << checked.out;
+}
+
 struct Mistake {
     std::vector<std::string> line;
     int code;
