@@ -21,5 +21,6 @@ Image<Rgb8> lesson_9_quads(const Exec& exec);
 Image<Rgb8> lesson_10_adding_quads(const Exec& exec);
 Image<Rgb8> lesson_11_near_to_far(const Exec& exec);
 Image<Rgb8> lesson_12_colour(const Exec& exec);
+Image<Rgb8> lesson_13_disparity(const Exec& exec);
 
 }  // namespace obscura

@@ -10,7 +10,7 @@
 namespace obscura {
 namespace {
 
-const std::array<LessonInfo, 12> infos{{
+const std::array<LessonInfo, 13> infos{{
     {1, "Edge functions", "which texels a triangle covers, and who owns a sample on a shared edge"},
     {2, "Depth", "one plane per face, the nearest of two surfaces, and why depth is monotone and clamped"},
     {3, "Layers", "every crossing of a ray with solids and sheets, in order"},
@@ -25,12 +25,15 @@ const std::array<LessonInfo, 12> infos{{
      "fringes along a shadow's edge become the far field; the bright spot behind a disc"},
     {12, "Adding wavelengths",
      "one pattern per wavelength, how many it takes, and how fine a lookup must be"},
+    {13, "Disparity from depth",
+     "how far apart two eyes see a point, from its depth; and what one sees alone"},
 }};
 
 constexpr std::array drawings{lesson_1_edge_functions, lesson_2_depth,        lesson_3_layers,
                               lesson_4_intervals,      lesson_5_mode_of_four, lesson_6_tree,
                               lesson_7_recursion,      lesson_8_lookups,      lesson_9_quads,
-                              lesson_10_adding_quads,  lesson_11_near_to_far, lesson_12_colour};
+                              lesson_10_adding_quads,  lesson_11_near_to_far, lesson_12_colour,
+                              lesson_13_disparity};
 static_assert(drawings.size() == std::tuple_size_v<decltype(infos)>);
 
 }  // namespace
