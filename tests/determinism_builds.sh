@@ -22,6 +22,8 @@ pictures() {
         stem=$(basename "$scene" .toml)
         "$1" render "$scene" --quiet --output "$out/$2-$stem-####.png" --aov depth,normal,albedo,object,shadow
         "$1" render "$scene" --quiet --output "$out/$2-$stem-####.pfm"
+        if ! grep -q '^\[stereo\]' "$scene"; then continue; fi
+        "$1" stereo "$scene" --quiet --layout separate --output "$out/$2-$stem-eyes.png" --maps "$out/$2-$stem-map"
     done
 }
 
