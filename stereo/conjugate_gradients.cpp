@@ -225,7 +225,9 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
     const auto start = std::chrono::steady_clock::now();
     const bool stationary = params.method != SolverMethod::multigrid;
     start_residual(s, h, x, exec, w.r[0]);
-    const auto unknowns = static_cast<double>(s.width()) * static_cast<double>(s.height());
+    const std::vector<std::uint8_t>& valid = s.valid.pixels;
+    const auto unknowns = static_cast<double>(valid.size()) -
+                          static_cast<double>(std::count(valid.begin(), valid.end(), std::uint8_t{0}));
     ErrorEstimate largest(h.hubs.size()), root_mean_square(h.hubs.size());
     double alpha = 0, rz_before = 0, rz_first = 0;
     report.converged = false;

@@ -27,10 +27,11 @@ void pair_terms(const DisparitySystem& s, Term&& term) {
         }
     }
     for (const MatchingSet& set : s.sets) {
+        if (s.valid(set.source_x, set.source_y) == 0) continue;
         const std::size_t source = at(set.source_x, set.source_y);
         for (const MatchedPixel& p : set.members) {
             const std::size_t member = at(p.x, p.y);
-            if (member != source)
+            if (member != source && s.valid(p.x, p.y) != 0)
                 term(static_cast<double>(set.weight), source, member, static_cast<double>(p.target));
         }
     }

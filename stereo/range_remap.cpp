@@ -36,6 +36,8 @@ Range range_of(const DisparityMap& map, const Image<std::uint8_t>& valid) {
 /// [0, 1] to [0, 1], the faster the lower: log(1 + c u) / log(1 + c); for c < 0 turned by half a turn.
 double log_share(double curvature, double u) {
     const double c = std::abs(curvature);
+    // 1 + c holds no more of c than this; the curve is straight to c / 8.
+    if (c < 1e-9) return u;
     const double scale = num::log(1 + c);
     return curvature > 0 ? num::log(1 + c * u) / scale : 1 - num::log(1 + c * (1 - u)) / scale;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -44,6 +45,25 @@ void add_first_solution(const DisparitySystem& s, GridHierarchy& h, const Exec& 
         x(h.hubs[k].x, h.hubs[k].y) += static_cast<float>(first.hubs[k]);
 }
 
+/// A cascade ends after its sweeps, wherever that is. How far from the minimiser it is says a solver that
+/// gets there.
+void measure_cascade(const DisparitySystem& s, const Exec& exec, Solution& solution) {
+    SolverParams params;
+    params.verify = false;
+    const DisparityMap minimiser = solve(s, params, exec, solution.disparity).disparity;
+    double sum = 0, largest = 0, count = 0;
+    for (std::size_t i = 0; i < minimiser.pixels.size(); ++i) {
+        if (s.valid.pixels[i] == 0) continue;
+        const double miss =
+            static_cast<double>(solution.disparity.pixels[i]) - static_cast<double>(minimiser.pixels[i]);
+        largest = std::max(largest, std::abs(miss));
+        sum += miss * miss;
+        count += 1;
+    }
+    solution.report.error_max_px = largest;
+    solution.report.error_rms_px = count > 0 ? std::sqrt(sum / count) : 0;
+}
+
 /// Fills in what is known of a finished solution.
 void judge(const DisparitySystem& s, const SolverParams& params, const Exec& exec, Solution& solution) {
     if (!params.verify) return;
@@ -51,6 +71,7 @@ void judge(const DisparitySystem& s, const SolverParams& params, const Exec& exe
     const double after = residual_norm(s, solution.disparity, exec);
     solution.report.residual = before > 0 ? after / before : after;
     solution.report.unsatisfied = unsatisfied(s, solution.disparity);
+    if (params.method == SolverMethod::cascade) measure_cascade(s, exec, solution);
 }
 
 /// A system all of whose pixels hang together: x becomes its minimiser.

@@ -22,8 +22,9 @@ struct SolverParams {
     double tolerance_max_px = 0.05;  ///< stop when both error estimates are below; multigrid, fmg, vcycle
     double tolerance_rms_px = 0.02;
     int max_iterations = 60;
-    int sweeps = 10;            ///< cascade: Jacobi sweeps per level
-    bool verify = true;         ///< fill in report.residual and report.unsatisfied when done
+    int sweeps = 10;  ///< cascade: Jacobi sweeps per level
+    bool verify =
+        true;  ///< fill in report.residual and report.unsatisfied when done, of a cascade its errors
     bool half_storage = false;  ///< cascade: maps as 16-bit floats between sweeps, as the paper keeps them
     bool printed_sign = false;  ///< cascade: the upsampling formula with the sign as printed
 };

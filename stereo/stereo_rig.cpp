@@ -1,5 +1,7 @@
 #include "stereo/stereo_rig.h"
 
+#include <limits>
+
 #include "core/error.h"
 #include "core/num.h"
 #include "core/scene.h"
@@ -31,7 +33,10 @@ double vergence_deg(double disparity_px, int picture_width, const StereoRig& rig
 
 double disparity_of_vergence(double vergence_deg, int picture_width, const StereoRig& rig) {
     const double v = 2 * rig.viewing_distance_m, e = rig.eye_separation_m;
-    const double s = v * num::tan(vergence_deg / (2 * degrees) + num::atan(e / v)) - e;
+    const double half = vergence_deg / (2 * degrees) + num::atan(e / v);
+    // Eyes cannot turn in so far: beyond any disparity.
+    if (half >= num::pi / 2) return std::numeric_limits<double>::infinity();
+    const double s = v * num::tan(half) - e;
     return s * picture_width / rig.screen_width_m;
 }
 

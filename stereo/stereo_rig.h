@@ -41,7 +41,8 @@ inline double percent_of_width(double disparity_px, int picture_width) {
 /// the picture fills; straight ahead. Positive in front of the screen. Past parallel (uncrossed disparity
 /// wider than the eyes' separation) the angle goes on falling.
 double vergence_deg(double disparity_px, int picture_width, const StereoRig& rig);
-/// The inverse: disparity in pixels of a vergence in degrees.
+/// The inverse: disparity in pixels of a vergence in degrees; infinite for more than lines of sight that meet
+/// between the eyes.
 double disparity_of_vergence(double vergence_deg, int picture_width, const StereoRig& rig);
 
 }  // namespace obscura

@@ -107,29 +107,55 @@ DisparitySystem part_system(const DisparitySystem& s, const SystemParts& parts, 
     return out;
 }
 
+namespace {
+
+/// The dense matrix of a part's pixels, which `index` numbers from 0; -1 for all others.
+std::vector<double> dense_matrix(const DisparitySystem& s, const Image<std::int32_t>& index, std::size_t n) {
+    std::vector<double> matrix(n * n, 0.0);
+    const auto tie = [&](int x, int y, int x2, int y2, double weight) {
+        if (index(x, y) < 0 || index(x2, y2) < 0 || index(x, y) == index(x2, y2)) return;
+        const auto a = static_cast<std::size_t>(index(x, y)), b = static_cast<std::size_t>(index(x2, y2));
+        matrix[a * n + a] += weight;
+        matrix[b * n + b] += weight;
+        matrix[a * n + b] -= weight;
+        matrix[b * n + a] -= weight;
+    };
+    const double edge = 2.0 * static_cast<double>(s.gradient_weight);
+    for (int y = 0; y < s.height(); ++y) {
+        for (int x = 0; x < s.width(); ++x) {
+            if (index(x, y) < 0) continue;
+            const auto i = static_cast<std::size_t>(index(x, y));
+            matrix[i * n + i] += static_cast<double>(s.epsilon) + static_cast<double>(s.anchor_weight(x, y));
+            if (x + 1 < s.width()) tie(x, y, x + 1, y, edge);
+            if (y + 1 < s.height()) tie(x, y, x, y + 1, edge);
+        }
+    }
+    for (const MatchingSet& set : s.sets) {
+        for (const MatchedPixel& p : set.members)
+            tie(set.source_x, set.source_y, p.x, p.y, static_cast<double>(set.weight));
+    }
+    return matrix;
+}
+
+}  // namespace
+
 void minimise_part(const DisparitySystem& s, const SystemParts& parts, const SystemPart& part,
                    DisparityMap& x) {
     const DisparitySystem own = part_system(s, parts, part);
-    // Columns of the matrix are residuals of unit vectors; its size is small.
+    Image<std::int32_t> index(own.width(), own.height(), -1);
     std::vector<std::pair<int, int>> pixels;
     for (int y = 0; y < own.height(); ++y) {
         for (int i = 0; i < own.width(); ++i) {
-            if (own.valid(i, y) != 0) pixels.emplace_back(i, y);
+            if (own.valid(i, y) == 0) continue;
+            index(i, y) = static_cast<std::int32_t>(pixels.size());
+            pixels.emplace_back(i, y);
         }
     }
     const std::size_t n = pixels.size();
+    std::vector<double> matrix = dense_matrix(own, index, n), right;
     const Image<double> b = residual(own, DisparityMap(own.width(), own.height()));
-    std::vector<double> matrix(n * n), right(n);
-    for (std::size_t column = 0; column < n; ++column) {
-        DisparityMap unit(own.width(), own.height());
-        unit(pixels[column].first, pixels[column].second) = 1;
-        const Image<double> r = residual(own, unit);
-        for (std::size_t row = 0; row < n; ++row) {
-            const auto [i, y] = pixels[row];
-            matrix[row * n + column] = b(i, y) - r(i, y);
-        }
-        right[column] = b(pixels[column].first, pixels[column].second);
-    }
+    for (const auto& [i, y] : pixels)
+        right.push_back(b(i, y));
     factor_cholesky(static_cast<int>(n), matrix);
     solve_cholesky(static_cast<int>(n), matrix, right);
     for (std::size_t i = 0; i < n; ++i)

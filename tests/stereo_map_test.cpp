@@ -54,6 +54,10 @@ TEST(DisparityUnits, PercentAndDegrees) {
                 2 * num::atan(0.032 / 0.3) * 180 / num::pi - screen_deg, 1e-12);
     for (const double px : {-300.0, -10.0, 0.0, 3.0, 250.0})
         EXPECT_NEAR(disparity_of_vergence(vergence_deg(px, 1000, rig), 1000, rig), px, 1e-9);
+
+    // Lines of sight cannot cross at more than half a turn, however near the eyes are to the screen.
+    const StereoRig near{.screen_width_m = 0.5, .viewing_distance_m = 0.02, .eye_separation_m = 0.064};
+    EXPECT_EQ(disparity_of_vergence(90, 1000, near), std::numeric_limits<double>::infinity());
 }
 
 TEST(RowSpans, JoinsSurfacesAndNotSilhouettes) {

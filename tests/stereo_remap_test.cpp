@@ -94,6 +94,18 @@ TEST(StereoRemap, LogarithmicCompressesOneEnd) {
     }
 }
 
+TEST(StereoRemap, LogarithmicIsLinearInTheLimit) {
+    const Scene s = scene();
+    for (const double bend : {1e-300, -1e-18, 1e-14, -1e-10, 1e-8}) {
+        RangeRemap remap = to_range(RemapKind::logarithmic);
+        remap.curvature = bend;
+        const RemapCurve curve = remap_curve(s.view.disparity, s.valid, remap),
+                         line = remap_curve(s.view.disparity, s.valid, to_range(RemapKind::linear));
+        for (const double d : {-4.0, -1.0, 0.5, 3.0})
+            EXPECT_NEAR(curve.at(d), line.at(d), 1e-5) << bend;
+    }
+}
+
 TEST(StereoRemap, HistogramSpendsTheRangeOnWhatIsSeen) {
     // Nine tenths of the pixels fill a tenth of the range.
     DisparityMap map(1000, 1);
