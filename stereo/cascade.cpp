@@ -2,24 +2,14 @@
 
 #include <chrono>
 
-#include "core/parallel.h"
 #include "stereo/grid_plane.h"
 #include "stereo/grid_rows.h"
+#include "stereo/grid_tasks.h"
 
 namespace obscura {
 namespace {
 
-constexpr std::size_t rows_per_task = 32;
 constexpr int coarsest_side = 8;
-
-template <class Fn>
-void for_rows(int height, const Exec& exec, Fn&& fn) {
-    parallel_blocks(static_cast<std::size_t>(height), rows_per_task, exec,
-                    [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t y = begin; y < end; ++y)
-                            fn(static_cast<int>(y));
-                    });
-}
 
 /// What sets add to a sweep: members follow their source, the source its members.
 void add_sets(const DisparitySystem& s, const JacobiForm& form, const GridPlane& before, GridPlane& after) {

@@ -58,15 +58,12 @@ DirectionSums direction_rows(const GridLevel& level, IterationVectors& w, float 
         OBSCURA_DISPATCH(exec.isa, apply_row, RowTriple{row(y - 1), row(y), row(y + 1)}, row_edges(level, y),
                          level.diagonal.row(y), level.relax.row(y), count, q, lanes);
         add_lanes(lanes, sums);
-        if (level.couplings.empty()) continue;
-        const auto r = static_cast<std::size_t>(y);
-        for (std::uint32_t i = level.coupling_rows[r]; i < level.coupling_rows[r + 1]; ++i) {
-            const Coupling& c = level.couplings[i];
+        for_couplings(level, y, [&](const Coupling& c) {
             const float pull = c.weight * static_cast<float>(p.hubs[c.hub]), here = row(y)[c.x];
             q[c.x] -= pull;
             sums.curvature -= static_cast<double>(pull) * static_cast<double>(here);
             hub_sums[c.hub] += static_cast<double>(c.weight) * static_cast<double>(here);
-        }
+        });
     }
     return sums;
 }

@@ -1,31 +1,16 @@
 #include "stereo/full_multigrid.h"
 
-#include "core/parallel.h"
 #include "stereo/grid_restrict.h"
+#include "stereo/grid_tasks.h"
 
 namespace obscura {
 namespace {
 
-constexpr std::size_t rows_per_task = 32;
-
-template <class Fn>
-void for_rows(int height, const Exec& exec, Fn&& fn) {
-    parallel_blocks(static_cast<std::size_t>(height), rows_per_task, exec,
-                    [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t y = begin; y < end; ++y)
-                            fn(static_cast<int>(y));
-                    });
-}
-
 /// Calls fn(coupling, y) for all of a level.
 template <class Fn>
-void for_couplings(const GridLevel& level, Fn&& fn) {
-    if (level.couplings.empty()) return;
-    for (int y = 0; y < level.height; ++y) {
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = level.coupling_rows[row]; i < level.coupling_rows[row + 1]; ++i)
-            fn(level.couplings[i], y);
-    }
+void for_all_couplings(const GridLevel& level, Fn&& fn) {
+    for (int y = 0; y < level.height; ++y)
+        for_couplings(level, y, [&](const Coupling& c) { fn(c, y); });
 }
 
 /// The right side in terms of the next level: the transpose of interpolation.
@@ -47,7 +32,7 @@ GridVector restricted(const GridLevel& fine, const GridLevel& coarse, const Grid
         OBSCURA_DISPATCH(exec.isa, restrict_row, sources, fine.width, coarse.width, scratch.row(0),
                          out.cells.row(Y));
     });
-    for_couplings(fine, [&](const Coupling& c, int y) {
+    for_all_couplings(fine, [&](const Coupling& c, int y) {
         out.hubs[c.hub] += static_cast<double>(c.share) * static_cast<double>(r.cells.row(y)[c.x]);
     });
     return out;
@@ -67,7 +52,7 @@ GridVector interpolated(const GridLevel& fine, const GridLevel& coarse, const Gr
                          fine.scale.empty() ? nullptr : fine.scale.row(y), fine.relax.count(),
                          out.cells.row(y));
     });
-    for_couplings(fine, [&](const Coupling& c, int y) {
+    for_all_couplings(fine, [&](const Coupling& c, int y) {
         out.cells.row(y)[c.x] += c.share * static_cast<float>(x.hubs[c.hub]);
     });
     return out;
@@ -85,7 +70,7 @@ GridVector left_over(const GridLevel& level, const GridVector& b, const GridVect
         for (int i = 0; i < level.width; ++i)
             out[i] = b.cells.row(y)[i] - out[i];
     });
-    for_couplings(level, [&](const Coupling& c, int y) {
+    for_all_couplings(level, [&](const Coupling& c, int y) {
         r.cells.row(y)[c.x] += c.weight * static_cast<float>(x.hubs[c.hub]);
         r.hubs[c.hub] += static_cast<double>(c.weight) * static_cast<double>(x.cells.row(y)[c.x]);
     });

@@ -53,14 +53,13 @@ struct HubWindow {
 HubWindow window_of(const GridLevel& level, std::uint32_t hub) {
     HubWindow w{level.width, level.height, 0, 0};
     for (int y = 0; y < level.height; ++y) {
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = level.coupling_rows[row]; i < level.coupling_rows[row + 1]; ++i) {
-            if (level.couplings[i].hub != hub) continue;
-            w.x0 = std::min(w.x0, level.couplings[i].x);
-            w.x1 = std::max(w.x1, level.couplings[i].x + 1);
+        for_couplings(level, y, [&](const Coupling& c) {
+            if (c.hub != hub) return;
+            w.x0 = std::min(w.x0, c.x);
+            w.x1 = std::max(w.x1, c.x + 1);
             w.y0 = std::min(w.y0, y);
             w.y1 = y + 1;
-        }
+        });
     }
     if (w.x0 >= w.x1) return {};
     w.x0 = std::max(w.x0 - 2, 0) / 2 * 2;
@@ -77,17 +76,15 @@ void restrict_hub(const GridLevel& fine, std::uint32_t hub, const LevelPulls& kn
     if (w.x0 >= w.x1) return;
     GridPlane pulls(w.x1 - w.x0, w.y1 - w.y0);
     for (int y = w.y0; y < w.y1; ++y) {
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = fine.coupling_rows[row]; i < fine.coupling_rows[row + 1]; ++i) {
-            const Coupling& c = fine.couplings[i];
-            if (c.hub != hub) continue;
+        for_couplings(fine, y, [&](const Coupling& c) {
+            if (c.hub != hub) return;
             // Where the hub takes part in interpolation, x - hub is only (1 - all members' share) of the
             // smooth part's difference to it.
             const float all = known.member.row(y)[c.x] / fine.diagonal.row(y)[c.x];
             const float left = c.share > 0 ? 1.0f - all : 1.0f;
             const float spread = known.spread.empty() ? 1.0f : known.spread.row(y)[c.x];
             pulls.row(y - w.y0)[c.x - w.x0] = c.weight * left * left * spread;
-        }
+        });
     }
     const int fine_width = w.x1 - w.x0, fine_height = w.y1 - w.y0;
     const int width = (fine_width + 1) / 2, height = (fine_height + 1) / 2;

@@ -4,26 +4,15 @@
 #include <cstring>
 #include <tuple>
 
-#include "core/parallel.h"
 #include "stereo/dense_cholesky.h"
 #include "stereo/grid_couplings.h"
 #include "stereo/grid_restrict.h"
+#include "stereo/grid_tasks.h"
 
 namespace obscura {
 namespace {
 
-constexpr std::size_t rows_per_task = 32;
 constexpr int coarsest_side = 8;
-
-/// Calls fn(y) for every row.
-template <class Fn>
-void for_rows(int height, const Exec& exec, Fn&& fn) {
-    parallel_blocks(static_cast<std::size_t>(height), rows_per_task, exec,
-                    [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t y = begin; y < end; ++y)
-                            fn(static_cast<int>(y));
-                    });
-}
 
 /// Which cells the next level has: those with an unknown of this one inside.
 Image<std::uint8_t> coarse_cells(const Image<std::uint8_t>& fine, const Exec& exec) {
@@ -145,13 +134,10 @@ void set_interpolation(const Image<std::uint8_t>& cells, LevelPulls& pulls, cons
             if (masked) value *= pulls.spread.row(y)[x] = spread_at(pulls.coarse, x, y);
             scale[x] = value;
         }
-        if (level.couplings.empty()) return;
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = level.coupling_rows[row]; i < level.coupling_rows[row + 1]; ++i) {
-            Coupling& c = level.couplings[i];
+        for_couplings(level, y, [&](Coupling& c) {
             const bool stiff = is_stiff(pull[static_cast<std::size_t>(c.x)], diagonal[c.x]);
             c.share = stiff ? c.weight / diagonal[c.x] : 0.0f;
-        }
+        });
     });
 }
 
@@ -302,12 +288,9 @@ void factor_coarsest(GridHierarchy& h) {
             if (y + 1 < level.height)
                 edge(x, y, x, y + 1, uniform ? level.uniform_edge : level.edge_y.row(y)[x]);
         }
-        for (std::uint32_t c = level.coupling_rows[static_cast<std::size_t>(y)];
-             c < level.coupling_rows[static_cast<std::size_t>(y) + 1]; ++c) {
-            const Coupling& coupling = level.couplings[c];
-            put(cells + coupling.hub, static_cast<std::size_t>(index(coupling.x, y)),
-                -static_cast<double>(coupling.weight));
-        }
+        for_couplings(level, y, [&](const Coupling& c) {
+            put(cells + c.hub, static_cast<std::size_t>(index(c.x, y)), -static_cast<double>(c.weight));
+        });
     }
     for (std::size_t a = 0; a < hubs; ++a) {
         for (std::size_t b = 0; b <= a; ++b)

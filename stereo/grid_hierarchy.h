@@ -51,6 +51,15 @@ struct GridLevel {
     GridPlane rhs, solution;                   ///< of the V-cycle; not on the finest level
 };
 
+/// Calls fn(coupling) for those of row y, ascending in x.
+template <class Level, class Fn>
+void for_couplings(Level& level, int y, Fn&& fn) {
+    if (level.couplings.empty()) return;
+    const auto row = static_cast<std::size_t>(y);
+    for (std::uint32_t i = level.coupling_rows[row]; i < level.coupling_rows[row + 1]; ++i)
+        fn(level.couplings[i]);
+}
+
 constexpr double jacobi_damping = 0.8;
 
 struct GridHierarchy {

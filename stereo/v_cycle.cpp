@@ -65,13 +65,11 @@ class DescentSweep {
             OBSCURA_DISPATCH(isa_, update_row, in_.r.row(y), in_.q->row(y), in_.alpha, relax, count, r,
                              z_.row(y));
         }
-        if (!owned(y) || fine_.couplings.empty()) return;
+        if (!owned(y)) return;
         // A hub's own residual: its row of the matrix has -weight at each cell.
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = fine_.coupling_rows[row]; i < fine_.coupling_rows[row + 1]; ++i) {
-            const Coupling& c = fine_.couplings[i];
+        for_couplings(fine_, y, [&](const Coupling& c) {
             hubs[c.hub] += static_cast<double>(c.weight) * static_cast<double>(z_.row(y)[c.x]);
-        }
+        });
     }
     const float* z_row(int y) { return y < 0 || y >= fine_.height ? zeros() : z_.row(y); }
     void make_residual(int y, std::vector<double>& hubs) {
@@ -82,13 +80,11 @@ class DescentSweep {
         float* left = left_.row(y);
         OBSCURA_DISPATCH(isa_, residual_row, right_side(y), z, row_edges(fine_, y), fine_.relax.row(y), scale,
                          keep, fine_.relax.count(), left);
-        if (!owned(y) || fine_.couplings.empty() || scale == nullptr) return;
+        if (!owned(y) || scale == nullptr) return;
         // Where interpolation takes a share of the hub, restriction gives it that share of the residual.
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = fine_.coupling_rows[row]; i < fine_.coupling_rows[row + 1]; ++i) {
-            const Coupling& c = fine_.couplings[i];
+        for_couplings(fine_, y, [&](const Coupling& c) {
             if (c.share > 0) hubs[c.hub] += static_cast<double>(c.share * (left[c.x] / scale[c.x]));
-        }
+        });
     }
 
     const GridLevel& fine_;
@@ -151,14 +147,11 @@ class AscentSweep {
         double dot = 0;
         for (const float lane : sums.dot)
             dot += static_cast<double>(lane);
-        if (fine_.couplings.empty()) return dot;
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = fine_.coupling_rows[row]; i < fine_.coupling_rows[row + 1]; ++i) {
-            const Coupling& c = fine_.couplings[i];
+        for_couplings(fine_, y, [&](const Coupling& c) {
             const float pull = fine_.relax.row(y)[c.x] * c.weight * static_cast<float>(hubs_[c.hub]);
             out[c.x] += pull;
             dot += static_cast<double>(rhs_.row(y)[c.x]) * static_cast<double>(pull);
-        }
+        });
         return dot;
     }
 
@@ -171,12 +164,10 @@ class AscentSweep {
                          interpolated_.row(0));
         OBSCURA_DISPATCH(isa_, correct_row, rhs_.row(y), interpolated_.row(0), fine_.relax.row(y),
                          fine_.scale.empty() ? nullptr : fine_.scale.row(y), fine_.relax.count(), z_.row(y));
-        if (fine_.couplings.empty() || fine_.scale.empty()) return;
-        const auto row = static_cast<std::size_t>(y);
-        for (std::uint32_t i = fine_.coupling_rows[row]; i < fine_.coupling_rows[row + 1]; ++i) {
-            const Coupling& c = fine_.couplings[i];
+        if (fine_.scale.empty()) return;
+        for_couplings(fine_, y, [&](const Coupling& c) {
             z_.row(y)[c.x] += c.share * static_cast<float>(hubs_[c.hub]);
-        }
+        });
     }
 
     const GridLevel& fine_;
