@@ -48,11 +48,14 @@ std::int64_t triangle_bytes(std::int64_t triangles, std::int64_t vertices) {
 
 }  // namespace
 
-std::int64_t stereo_bytes(const Scene& scene, const StereoSettings& settings, std::int64_t triangles) {
+std::int64_t stereo_bytes(const Scene& scene, const StereoSettings& settings, std::int64_t triangles,
+                          int margin_px) {
     const RenderSettings& render = scene.render;
-    // An automatic margin is at most a quarter of the picture on either side.
+    // An automatic margin is a quarter of the picture at most, but comfortable pairs have less than this.
     const std::int64_t margin =
-        settings.margin_px == auto_margin ? render.width / 4 : std::int64_t{settings.margin_px};
+        margin_px != auto_margin
+            ? margin_px
+            : (settings.margin_px == auto_margin ? render.width / 16 : settings.margin_px);
     const std::int64_t map = (render.width + 2 * margin) * render.height;
     const std::int64_t scale = std::max(settings.map_scale, 1);
     const std::int64_t solved = map / (scale * scale) + 1;

@@ -92,7 +92,8 @@ void solve_map(const Scene& scene, const StereoSettings& settings, const Exec& e
 void check_bytes(const Scene& scene, const StereoSettings& settings, std::int64_t triangles,
                  StereoPair& pair) {
     MemoryEstimate memory = estimate_memory(scene);
-    memory.frame += stereo_bytes(scene, settings, triangles);
+    const int margin = pair.view.picture_width > 0 ? pair.view.margin_px : auto_margin;
+    memory.frame += stereo_bytes(scene, settings, triangles, margin);
     pair.bytes = memory.total();
     check_memory(memory, scene.limits, "the stereo pair");
 }
@@ -187,6 +188,7 @@ void render_stereo_pair(const Scene& scene, const StereoSettings& settings, cons
     const Stopwatch viewing;
     pair.view = view_of(scene, settings, exec, cache.eyes.frame);
     pair.times.view_s = viewing.seconds();
+    check_bytes(scene, settings, 0, pair);  // with the margin that was found
     if (stopped(options)) return;
 
     solve_map(scene, settings, exec, cache, pair);

@@ -87,7 +87,9 @@ void render_stereo_pair(const Scene& scene, const StereoSettings& settings, cons
                         const Exec& exec, StereoCache& cache, StereoPair& pair);
 
 /// Bytes that a pair of `scene` takes at once beside what estimate_memory(scene) tells, when moving leaves
-/// `triangles` of them (0: a guess from the picture's size).
-std::int64_t stereo_bytes(const Scene& scene, const StereoSettings& settings, std::int64_t triangles = 0);
+/// `triangles` of them (0: a guess from the picture's size)
+/// and the view has this margin (auto_margin: the settings', or a guess).
+std::int64_t stereo_bytes(const Scene& scene, const StereoSettings& settings, std::int64_t triangles = 0,
+                          int margin_px = auto_margin);
 
 }  // namespace obscura
