@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "bench/stereo_peers.h"
 #include "bench/stereo_report.h"
 #include "core/error.h"
@@ -36,7 +38,14 @@ StereoSubject stereo_subject(StereoCase stereo_case, StereoSize size) {
     return subject;
 }
 
-int bench_stereo(const BenchOptions& options) {
+int bench_stereo(const BenchOptions& given) {
+    // A run takes minutes: lines of progress say how many have passed.
+    BenchOptions options = given;
+    const auto start = std::chrono::steady_clock::now();
+    options.say = [&given, start](const std::string& line) {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+        given.say(fmt::format("{:5.0f} s  {}", passed.count(), line));
+    };
     const StereoBenchPlan plan = stereo_bench_plan(options.quick, options.runs);
     std::error_code error;
     std::filesystem::create_directories(options.out, error);

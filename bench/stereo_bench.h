@@ -19,12 +19,12 @@ struct StereoBenchPlan {
     std::vector<StereoSize> sizes;       ///< of the base case, by every method
     std::vector<StereoSize> case_sizes;  ///< of every case, by multigrid
     int rounds = 7;                      ///< turns of each of our jobs, the least time counts
-    double budget_ms = 1500;             ///< a job that has spent this rests, after two turns
+    double budget_ms = 1000;             ///< a job that has spent this rests, after two turns
     int curve_iterations = 12;           ///< of error against time
     int case_iterations = 20;            ///< tried at most in search of the goal
     std::vector<int> cascade_sweeps = {1, 2, 5, 10, 20, 50, 100};
     double longest_cg_ms = 150e3;      ///< Eigen's CG is stopped then, goal or not
-    double longest_cg_ic_ms = 60e3;    ///< the same with incomplete Cholesky
+    double longest_cg_ic_ms = 45e3;    ///< the same with incomplete Cholesky
     int largest_ldlt = 480 * 270;      ///< unknowns that Eigen's factorisation is asked for
     int largest_repeated = 960 * 540;  ///< unknowns up to which CHOLMOD runs three times
 };

@@ -94,7 +94,8 @@ std::vector<MethodJobs> jobs_of(const DisparitySystem& system, const StereoBench
         params.printed_sign = name == printed_name;
         params.half_storage = name == half_name;
         MethodJobs jobs{name, threads, job_of(system, params, threads), {}, {}, {}};
-        for (const int sweeps : plan.cascade_sweeps) {
+        for (const int sweeps :
+             name == cascade_name ? plan.cascade_sweeps : std::vector<int>{params.sweeps}) {
             params.sweeps = sweeps;
             jobs.sweeps.push_back(job_of(system, params, threads));
         }
