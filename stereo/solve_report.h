@@ -31,8 +31,9 @@ struct Unsatisfied {
                               ///< is around them
 };
 
-/// What is missed by less is no contradiction.
-constexpr double unsatisfied_px = 0.5;
+/// What is missed by less is no contradiction, nor is what no more than this share of an edit's pixels
+/// misses: borders give a little.
+constexpr double unsatisfied_px = 0.5, unsatisfied_share = 0.01;
 
 struct SolveReport {
     bool converged = false;

@@ -50,7 +50,8 @@ struct SolverCache {
 Solution solve(const DisparitySystem& system, const SolverParams& params, const Exec& exec,
                const DisparityMap& initial = {}, SolverCache* cache = nullptr);
 
-/// Edits that `x` leaves unsatisfied by more than unsatisfied_px somewhere, worst first.
+/// Edits that `x` leaves unsatisfied by more than unsatisfied_px at more than unsatisfied_share of their
+/// pixels, worst first.
 std::vector<Unsatisfied> unsatisfied(const DisparitySystem& system, const DisparityMap& x);
 
 }  // namespace obscura

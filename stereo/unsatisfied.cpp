@@ -20,7 +20,7 @@ struct Misses {
         of.pixels += miss > unsatisfied_px ? 1 : 0;
     }
     void tell(std::vector<Unsatisfied>& out) {
-        if (of.pixels == 0) return;
+        if (static_cast<double>(of.pixels) <= unsatisfied_share * terms) return;
         of.wanted_px = wanted / terms;
         of.reached_px = reached / terms;
         out.push_back(std::move(of));
