@@ -72,6 +72,10 @@ int run_stereo(const Arguments& arguments) {
         "Write disparity PREFIX.before and .after, of both eyes PREFIX.left and .right (PFM in pixels, "
         "PNG in colours), what only one eye sees, and PREFIX.conflicts.png.",
         "none");
+    flags.text("--report", "FILE", options.report,
+               "Write a page about the pair (.html, needs nothing else): disparity and anaglyph before and "
+               "after, conflicts, histograms, convergence, times.",
+               "none");
     flags.on_off("--overwrite", options.overwrite, "Replace files that exist; otherwise they are an error.");
     flags.text("--frames", "RANGE", options.frames, "Frames to render: 1-48x2 or 1,5,9-12.",
                "all of the scene");

@@ -14,6 +14,7 @@
 #include "app/stereo_notes.h"
 #include "app/stereo_pair.h"
 #include "app/stereo_pictures.h"
+#include "app/stereo_report.h"
 #include "app/stereo_settings.h"
 #include "app/stereo_stats.h"
 #include "app/stopwatch.h"
@@ -72,6 +73,7 @@ StereoPlan plan_stereo(const StereoOptions& options) {
                          ? options.scene.stem().string() + (several ? ".stereo.####.png" : ".stereo.png")
                          : options.output;
     request.maps = options.maps;
+    request.report = options.report;
     request.layout = options.layout;
     request.compare = options.compare;
     request.several_frames = several;
@@ -124,7 +126,7 @@ struct Run {
 
 StereoSettings settings_of(const Run& run, int frame) {
     StereoSettings s = stereo_settings(run.plan.document, run.scene, frame, run.access);
-    s.middle_picture = run.options.compare.warp || !run.options.maps.empty();
+    s.middle_picture = run.options.compare.warp || !run.options.maps.empty() || !run.options.report.empty();
     if (run.options.preview) s.reproject.tolerance_px = std::max(s.reproject.tolerance_px, 0.25);
     return s;
 }
@@ -161,6 +163,16 @@ void write_layout(const Run& run, const char* role, const StereoPair& pair, Ster
     write_files(run, laid_out_files(role, left, right, run.options.layout), "", report);
 }
 
+/// What the rig alone gives.
+StereoSettings unedited(StereoSettings settings) {
+    settings.middle_picture = false;
+    settings.edits.clear();
+    settings.remap = {};
+    settings.edit.comfort = {};
+    settings.edit.window_weight = 0;
+    return settings;
+}
+
 /// The comparisons that were asked for, one after the other.
 void write_comparisons(Run& run, const StereoPair& pair, const StereoSettings& settings,
                        StereoFrameReport& report) {
@@ -181,13 +193,28 @@ void write_comparisons(Run& run, const StereoPair& pair, const StereoSettings& s
         run.compare_cache.last.reset();
     }
     if (compare.unedited) {
-        other.remap = {};
-        other.edit.comfort = {};
-        other.edit.window_weight = 0;
-        write_layout(run, "unedited", make_pair(run, other, run.compare_cache, false), report);
+        write_layout(run, "unedited", make_pair(run, unedited(settings), run.compare_cache, false), report);
         run.compare_cache.last.reset();
     }
     report.compare_s = watch.seconds() - (report.write_s - written_s);
+}
+
+/// The page, with what the rig alone would have given beside the pair.
+void write_report(Run& run, const StereoPair& pair, const StereoSettings& settings,
+                  StereoFrameReport& report) {
+    const Stopwatch watch;
+    const double written_s = report.write_s;
+    const Exec& exec = run.options.exec;
+    const RenderSettings& render = run.scene.render;
+    const StereoPair rig = make_pair(run, unedited(settings), run.compare_cache, false);
+    run.compare_cache.last.reset();
+    const std::string page =
+        stereo_report({run.scene, settings, pair, report, run.options.scene.filename().string(),
+                       display_light(rig.eyes.left.radiance.view(), render, exec),
+                       display_light(rig.eyes.right.radiance.view(), render, exec)},
+                      exec);
+    write_files(run, {{"report", page}}, "", report);
+    report.compare_s += watch.seconds() - (report.write_s - written_s);
 }
 
 void say_notes(const std::vector<std::string>& notes, int frame, bool several) {
@@ -218,6 +245,7 @@ void render_one(Run& run, int number, StereoReport& report) {
             write_files(run, map_files(pair, settings, run.scene.render, run.options.exec), "map.", frame);
         }
         write_comparisons(run, pair, settings, frame);
+        if (!run.options.report.empty()) write_report(run, pair, settings, frame);
     });
     if (run.options.quiet) return;
     run.progress.clear();

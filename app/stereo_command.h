@@ -19,6 +19,7 @@ struct StereoOptions {
     StereoLayout layout = StereoLayout::side_by_side;
     StereoCompare compare;
     std::string maps;                  ///< prefix of the maps' files; empty: none
+    std::string report;                ///< a page about the pair (.html); empty: none
     std::string frames;                ///< "1-48x2", "1,5,9-12"; empty: all of the scene
     bool preview = false;              ///< small pictures, one sample
     std::filesystem::path stats_json;  ///< empty: none

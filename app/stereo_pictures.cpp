@@ -11,8 +11,6 @@
 #include "core/parallel.h"
 #include "filters/tonemap.h"
 #include "stereo/conflict_overlay.h"
-#include "stereo/disparity.h"
-#include "stereo/disparity_colour.h"
 #include "stereo/warp.h"
 
 namespace obscura {
@@ -22,7 +20,21 @@ constexpr std::array map_role_names = {
     "before.pfm", "before.png", "after.pfm",          "after.png",           "left.pfm",  "left.png",
     "right.pfm",  "right.png",  "left.occlusion.png", "right.occlusion.png", "scale.png", "conflicts.png"};
 
-/// A range that holds both maps.
+std::string grey_png(const Image<std::uint8_t>& mask) {
+    Image<Rgb8> picture(mask.width, mask.height);
+    std::transform(mask.pixels.begin(), mask.pixels.end(), picture.pixels.begin(), [](std::uint8_t v) {
+        return Rgb8{v, v, v};
+    });
+    return encode_png(picture.view());
+}
+
+const Raster<Vec3f>& middle_radiance(const StereoPair& pair) {
+    CHECK(pair.eyes.middle.has_value(), "the middle picture was not asked for");
+    return pair.eyes.middle->radiance;
+}
+
+}  // namespace
+
 DisparityColours common_colours(const DisparityMap& a, const DisparityMap& b, const ComfortZone& comfort) {
     DisparityColours colours = colours_for(a);
     const DisparityColours other = colours_for(b);
@@ -33,26 +45,11 @@ DisparityColours common_colours(const DisparityMap& a, const DisparityMap& b, co
     return colours;
 }
 
-std::string grey_png(const Image<std::uint8_t>& mask) {
-    Image<Rgb8> picture(mask.width, mask.height);
-    std::transform(mask.pixels.begin(), mask.pixels.end(), picture.pixels.begin(), [](std::uint8_t v) {
-        return Rgb8{v, v, v};
-    });
-    return encode_png(picture.view());
-}
-
-TwoWayDisparity two_way(const StereoPair& pair, const Exec& exec) {
+TwoWayDisparity two_way_maps(const StereoPair& pair, const Exec& exec) {
     return cross_checked({pair.eyes.left_map.disparity, pair.eyes.left_map.original, {}},
                          {pair.eyes.right_map.disparity, pair.eyes.right_map.original, {}}, TwoWayParams{},
                          exec);
 }
-
-const Raster<Vec3f>& middle_radiance(const StereoPair& pair) {
-    CHECK(pair.eyes.middle.has_value(), "the middle picture was not asked for");
-    return pair.eyes.middle->radiance;
-}
-
-}  // namespace
 
 Image<Vec3f> display_light(ImageView<const Vec3f> radiance, const RenderSettings& render, const Exec& exec) {
     const double scale = num::exp2(render.exposure_ev);
@@ -113,7 +110,7 @@ std::vector<RoledFile> map_files(const StereoPair& pair, const StereoSettings& s
     };
     add_map("before", pair.view.disparity);
     add_map("after", pair.optimised);
-    const TwoWayDisparity eyes = two_way(pair, exec);
+    const TwoWayDisparity eyes = two_way_maps(pair, exec);
     add_map("left", eyes.left.disparity);
     add_map("right", eyes.right.disparity);
     files.push_back({"left.occlusion.png", grey_png(occlusion_mask(eyes.left))});

@@ -10,6 +10,9 @@
 #include "core/isa.h"
 #include "core/pixel.h"
 #include "core/scene.h"
+#include "stereo/comfort.h"
+#include "stereo/disparity.h"
+#include "stereo/disparity_colour.h"
 #include "stereo/layout.h"
 
 namespace obscura {
@@ -34,6 +37,12 @@ std::vector<std::string> layout_roles(std::string_view role, StereoLayout layout
 /// Those files.
 std::vector<RoledFile> laid_out_files(std::string_view role, const Image<Vec3f>& left,
                                       const Image<Vec3f>& right, StereoLayout layout);
+
+/// A range that holds both maps, and the comfort zone.
+DisparityColours common_colours(const DisparityMap& a, const DisparityMap& b, const ComfortZone& comfort);
+
+/// Disparity of both eyes' pictures, with what only one sees.
+TwoWayDisparity two_way_maps(const StereoPair& pair, const Exec& exec);
 
 /// Roles of the files that `map_files` gives.
 std::vector<std::string> map_roles();

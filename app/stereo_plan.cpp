@@ -70,6 +70,12 @@ std::vector<StereoFile> plan_stereo_files(const StereoFileRequest& request) {
         for (const std::string& role : map_roles())
             files.push_back({"map." + role, request.maps + "." + role});
     }
+    if (!request.report.empty()) {
+        if (fs::path(request.report).extension() != ".html")
+            throw UsageError(fmt::format("'{}': reports end in .html", request.report));
+        check_frame_number(request.report, request.several_frames);
+        files.push_back({"report", request.report});
+    }
     std::set<fs::path> names;
     for (const StereoFile& file : files) {
         if (!names.insert(fs::path(file.pattern).lexically_normal()).second)

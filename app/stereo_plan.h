@@ -23,15 +23,15 @@ struct StereoFile {
 };
 
 struct StereoFileRequest {
-    std::string output, maps;  ///< -o, --maps
+    std::string output, maps, report;  ///< -o, --maps, --report
     StereoLayout layout = StereoLayout::side_by_side;
     StereoCompare compare;
     bool several_frames = false;
 };
 
 /// Every file of a frame: NAME.png, or NAME.left.png and NAME.right.png; NAME.warp.png and so on;
-/// PREFIX.before.pfm and so on. Throws UsageError for suffixes other than .png, several frames without ####
-/// in a name, and names that meet.
+/// PREFIX.before.pfm and so on; the report's page. Throws UsageError for suffixes other than .png (.html),
+/// several frames without #### in a name, and names that meet.
 std::vector<StereoFile> plan_stereo_files(const StereoFileRequest& request);
 
 /// The file of a role at one frame; the role must be planned.
