@@ -48,7 +48,7 @@ li{max-width:110ch}
 .bad{color:var(--worst)}
 .keys{font-size:13px;margin:4px 0 0}
 .key{display:inline-block;width:12px;height:12px;border-radius:2px;margin:0 7px 0 0;vertical-align:-1px}
-.keys .key:not(:first-child){margin-left:16px}
+.keys .key:not(:first-child),.keys .faint{margin-left:16px}
 i.before{background:var(--before)}i.after{background:var(--after)}i.zone{background:var(--zone);opacity:.4}
 svg{display:block;width:100%;max-width:860px;height:auto;font-family:inherit}
 svg text{fill:var(--ink);font-size:12.5px;font-variant-numeric:tabular-nums}
