@@ -98,6 +98,17 @@ void check_bytes(const Scene& scene, const StereoSettings& settings, std::int64_
     check_memory(memory, scene.limits, "the stereo pair");
 }
 
+/// Moving stops at the first triangle that no longer fits, which check_bytes() then refuses.
+std::int64_t most_triangles(const Scene& scene, const StereoSettings& settings, int margin_px) {
+    const std::int64_t free = (scene.limits.memory_mib << 20) - estimate_memory(scene).total();
+    std::int64_t fits = 0, too_many = settings.reproject.max_triangles;
+    while (too_many - fits > 1) {
+        const std::int64_t middle = fits + (too_many - fits) / 2;
+        (stereo_bytes(scene, settings, middle, margin_px) <= free ? fits : too_many) = middle;
+    }
+    return too_many;
+}
+
 /// Change of disparity at a place of a map, between four pixels of one object; nothing elsewhere.
 std::optional<double> change_between(const MiddleView& view, const DisparityMap& optimised,
                                      std::uint32_t object, double depth_m, double column, double row) {
@@ -158,8 +169,10 @@ void measure(const Scene& scene, const StereoSettings& settings, const Exec& exe
 void render_pair(const Scene& scene, const StereoSettings& settings, const StereoPairOptions& options,
                  const Exec& exec, StereoCache& cache, StereoPair& pair) {
     const Stopwatch moving;
-    pair.moved = moved_mesh(scene.mesh, scene.camera, pair.view, pair.optimised, settings.reproject, exec,
-                            pair.reprojection);
+    ReprojectParams reproject = settings.reproject;
+    reproject.max_triangles = most_triangles(scene, settings, pair.view.margin_px);
+    pair.moved =
+        moved_mesh(scene.mesh, scene.camera, pair.view, pair.optimised, reproject, exec, pair.reprojection);
     pair.times.mesh_s = moving.seconds();
     check_bytes(scene, settings, static_cast<std::int64_t>(pair.moved.mesh.triangles.size()), pair);
 

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "app/scene_build.h"
 #include "app/stereo_pair.h"
 #include "core/error.h"
 #include "stereo_eyes.h"
@@ -218,6 +219,26 @@ TEST(StereoPair, RefusesWhatItCannotDo) {
     StereoSettings wide = plain_settings();
     wide.margin_px = 500;
     EXPECT_LT(stereo_bytes(scene, plain_settings()), stereo_bytes(scene, wide));
+}
+
+TEST(StereoPair, CutsNoMoreTrianglesThanFit) {
+    Scene scene = room();
+    scene.render.width = 160;
+    scene.render.height = 90;
+    StereoSettings settings = edited_settings();
+    settings.margin_px = 8;
+    settings.reproject.tolerance_px = 1e-3;
+    const StereoPair free = pair_of(scene, settings);
+    const auto all = static_cast<std::int64_t>(free.moved.mesh.triangles.size());
+    // Room for the picture and the guess of triangles, not for what such a tolerance asks.
+    scene.limits.memory_mib = ((estimate_memory(scene).total() + stereo_bytes(scene, settings)) >> 20) + 1;
+    ASSERT_GT(stereo_bytes(scene, settings, all), stereo_bytes(scene, settings) + (3 << 20));
+    StereoCache cache;
+    StereoPair pair;
+    EXPECT_THROW(render_stereo_pair(scene, settings, {}, {}, cache, pair), LimitError);
+    const auto cut = static_cast<std::int64_t>(pair.moved.mesh.triangles.size());
+    EXPECT_LT(estimate_memory(scene).total() + stereo_bytes(scene, settings, cut),
+              (scene.limits.memory_mib << 20) + (1 << 19));
 }
 
 TEST(StereoPair, StopsWhenAsked) {
