@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "bench/diffraction_report.h"
 #include "bench/gnuplot.h"
@@ -61,11 +62,11 @@ std::string key_strip(const PanelChart& chart, double bottom, double height) {
     return fmt::format(
         "unset logscale\nunset arrow\nunset border\nunset tics\nunset grid\nset origin 0,{:.4f}\nset size "
         "1,{:.4f}\n"
-        "set lmargin at screen 0.04\nset rmargin at screen 0.98\nset key center center horizontal maxrows 2 "
-        "samplen 2\n{}\nunset key\nunset label\nset lmargin -1\nset rmargin -1\nset border 3\n"
+        "set lmargin at screen 0.04\nset rmargin at screen 0.98\nset key center center horizontal maxrows "
+        "{:.0f} samplen 2\n{}\nunset key\nunset label\nset lmargin -1\nset rmargin -1\nset border 3\n"
         "set xtics nomirror\nset ytics nomirror\nset logscale xy\nset grid lt 1 lc rgb '#dddddd' lw "
         "0.6\n{}\n",
-        bottom, height, plot, chart.x_tics);
+        bottom, height, std::floor(chart.key_height / 23), plot, chart.x_tics);
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ MethodStyle method_style(const std::string& method) {
 std::string panel_script(const PanelChart& chart) {
     const auto count = static_cast<int>(chart.panels.size());
     const int columns = std::min(count, chart.columns), rows = (count + columns - 1) / columns;
-    const double strip = chart.key_strip ? 46 : 0;
+    const double strip = chart.key_strip ? chart.key_height : 0;
     const double height = 110.0 + strip + chart.panel_height * rows;
     const double width = std::max(60.0 + 370.0 * columns, 800.0);
     const double top = (80 + strip) / height, bottom = 30 / height;

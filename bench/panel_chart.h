@@ -41,6 +41,7 @@ struct PanelChart {
     int columns = 3;                  ///< at most
     int panel_height = 290;           ///< pixels
     bool key_strip = false;           ///< one key above all panels, a line per method; none in them
+    double key_height = 46;           ///< of the strip, pixels
     bool one_key = false;             ///< keys on the first row alone, and x labels on the last
 };
 

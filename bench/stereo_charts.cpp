@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "bench/gnuplot.h"
@@ -11,6 +12,7 @@
 namespace obscura {
 namespace {
 
+constexpr const char* goal_line = "goal";
 constexpr double exact_px = 2e-5;  // direct solvers are drawn at the lower edge
 
 std::vector<PanelPoint> points_of(const StereoRow& row, double MapError::*error) {
@@ -33,6 +35,16 @@ Panel panel_of(const StereoResults& results, int width, int height, double MapEr
         line.hollow = row.threads == 1 && !row.peer;
         panel.lines.push_back(std::move(line));
     }
+    // The goal, from the first point's time to the last one's.
+    double first = INFINITY, last = 0;
+    for (const PanelLine& line : panel.lines) {
+        for (const PanelPoint& p : line.points)
+            first = std::min(first, p.x), last = std::max(last, p.x);
+    }
+    if (last > 0) {
+        const MapError goal{stereo_goal_max_px, stereo_goal_rms_px};
+        panel.lines.push_back({goal_line, {{first, goal.*error}, {last, goal.*error}}, true, true});
+    }
     return panel;
 }
 
@@ -45,6 +57,7 @@ std::optional<MethodStyle> stereo_style(const std::string& method) {
         {printed_name, {"#999999", 4, 5}},   {half_name, {"#56B4E9", 4, 5}},
         {cg_name, {"#D55E00", 12, 13}},      {cg_ic_name, {"#E69F00", 12, 13}},
         {ldlt_name, {"#E69F00", 2, 2}},      {cholmod_name, {"#D55E00", 3, 3}},
+        {goal_line, {"#888888", 0, 0}},
     };
     const auto found = styles.find(method);
     return found == styles.end() ? std::nullopt : std::optional(found->second);
@@ -70,6 +83,7 @@ void draw_stereo_chart(const StereoResults& results, const BenchOptions& options
     chart.columns = static_cast<int>(sizes.size());
     chart.panel_height = 330;
     chart.key_strip = true;
+    chart.key_height = 100;
     chart.one_key = true;
     chart.x_tics = fmt::format("set format x '%g'\nset format y '%g'\nset yrange [{:g}:100]", 0.7 * exact_px);
     for (const auto& [width, height] : sizes)
