@@ -199,6 +199,12 @@ TEST(StereoConflict, FoldsAreLimitedButOldOnesStay) {
         EditParams off;
         off.limit_folds = false;
         EXPECT_FLOAT_EQ(edited_system(view, {rounder}, off, names).system.gradient_x(3, 0), 3 * r);
+
+        // Eyes stand side by side: however steep it falls from row to row, nothing runs backwards.
+        paint(view, {0, 0, 16, 2, 0, 0, -30, 0, 1.5f * r});
+        const EditedSystem steep = edited_system(view, {rounder}, {}, names);
+        EXPECT_TRUE(steep.conflicts.empty());
+        EXPECT_FLOAT_EQ(steep.system.gradient_y(3, 0), 3 * r);
     }
 }
 

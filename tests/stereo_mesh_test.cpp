@@ -125,6 +125,20 @@ TEST(MovedMesh, EyesAreAChangeFurtherApart) {
     }
 }
 
+TEST(MovedMesh, ChangesGoOnLinearlyBehindTheCamera) {
+    // A triangle that reaches there is drawn up to the near plane: between its corners nothing may bend.
+    Stage s = ball_before_wall(3);
+    MovedMesh moved;
+    moved.mesh.positions = {{0.5f, -2, 2}, {0.5f, -2, 5}, {0.5f, -2, 8}};  // before, beside, behind the eye
+    moved.change_px = {3.5f, 3.5f, 3.5f};
+    for (const Eye eye : {Eye::left, Eye::right}) {
+        const std::vector<Vec3f> seen = eye_positions(moved, s.camera, s.height, s.rig, eye);
+        EXPECT_NE(seen[0].x, seen[1].x);
+        EXPECT_NEAR(static_cast<double>(seen[2].x - seen[1].x), static_cast<double>(seen[1].x - seen[0].x),
+                    1e-6);
+    }
+}
+
 TEST(MovedMesh, CopiesOfAVertexGetTheSameBits) {
     Stage s;
     Mesh ball = sphere(1.2, 20, 12);
