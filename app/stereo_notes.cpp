@@ -49,19 +49,21 @@ void add_solver(const StereoPair& pair, const StereoSettings& settings, std::vec
                         "left (max_iterations, tolerance_px)",
                         settings.solver.tolerance_max_px, report.iterations, report.error_max_px));
     }
-    for (std::size_t i = 0; i < std::min(report.unsatisfied.size(), most_unsatisfied); ++i) {
-        const Unsatisfied& u = report.unsatisfied[i];
-        // What edits do to gradients is their purpose; only wishes that have a name are told.
-        if (u.name.empty()) continue;
+    // What edits do to gradients is their purpose; only wishes that have a name are told.
+    std::vector<const Unsatisfied*> named;
+    for (const Unsatisfied& u : report.unsatisfied) {
+        if (!u.name.empty()) named.push_back(&u);
+    }
+    for (std::size_t i = 0; i < std::min(named.size(), most_unsatisfied); ++i) {
+        const Unsatisfied& u = *named[i];
         notes.push_back(fmt::format(
             "edit '{}' is not satisfied: it wants {:.2f} px and gets {:.2f} on average, {:.2f} px off at "
             "worst, {} pixels by more than {:.2g}; against it {}",
             u.name, u.wanted_px, u.reached_px, u.worst_px, u.pixels, unsatisfied_px,
             u.against.empty() ? "pull the depths around" : fmt::format("pulls edit '{}'", u.against)));
     }
-    if (report.unsatisfied.size() > most_unsatisfied)
-        notes.push_back(
-            fmt::format("and {} more edits are not", report.unsatisfied.size() - most_unsatisfied));
+    if (named.size() > most_unsatisfied)
+        notes.push_back(fmt::format("and {} more edits are not", named.size() - most_unsatisfied));
 }
 
 }  // namespace

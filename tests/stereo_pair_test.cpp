@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/scene_build.h"
+#include "app/stereo_notes.h"
 #include "app/stereo_pair.h"
 #include "core/error.h"
 #include "stereo_eyes.h"
@@ -219,6 +220,22 @@ TEST(StereoPair, RefusesWhatItCannotDo) {
     StereoSettings wide = plain_settings();
     wide.margin_px = 500;
     EXPECT_LT(stereo_bytes(scene, plain_settings()), stereo_bytes(scene, wide));
+}
+
+TEST(StereoNotes, CountOnlyWishesThatHaveAName) {
+    StereoPair pair;
+    pair.solution.report.converged = true;
+    Unsatisfied wish;
+    pair.solution.report.unsatisfied.push_back(wish);  // gradients: no edit's wish
+    wish.name = "near";
+    for (int i = 0; i < 8; ++i)
+        pair.solution.report.unsatisfied.push_back(wish);
+    EXPECT_EQ(stereo_notes(pair, plain_settings()).size(), 8u);
+    for (int i = 0; i < 3; ++i)
+        pair.solution.report.unsatisfied.push_back(wish);
+    const std::vector<std::string> notes = stereo_notes(pair, plain_settings());
+    ASSERT_EQ(notes.size(), 9u);
+    EXPECT_EQ(notes.back(), "and 3 more edits are not");
 }
 
 TEST(StereoPair, CutsNoMoreTrianglesThanFit) {
