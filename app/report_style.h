@@ -64,7 +64,11 @@ svg .curve{fill:none;stroke-width:2}
 svg .residual{stroke:var(--residual)}svg .worst{stroke:var(--worst)}svg .rms{stroke:var(--rms)}
 svg .residual.dot{fill:var(--residual)}svg .worst.dot{fill:var(--worst)}svg .rms.dot{fill:var(--rms)}
 svg .limit{stroke-dasharray:5 4;opacity:.8}
-@media print{section{break-inside:avoid}}
+@media print{
+:root{color-scheme:light;--paper:#fff;--panel:#f2f1ec;--ink:#1e2026;--soft:#54565c;--line:#d8d6cf;
+--before:#8d8f94;--after:#0072b2;--zone:#009e73;--worst:#d55e00;--rms:#0072b2;--residual:#8d8f94}
+main{max-width:none;padding:0}figure,tr,.tile{break-inside:avoid}h2{break-after:avoid}
+.key{print-color-adjust:exact;-webkit-print-color-adjust:exact}}
 )";
 
 }  // namespace obscura

@@ -63,17 +63,25 @@ DisparityMap shown_map(const MiddleView& view, const DisparityMap& map) {
     return out;
 }
 
-std::string scale_bar(const DisparityColours& colours) {
+/// The strip of colours over its numbers: pixels, percent of the width, degrees of vergence.
+std::string scale_bar(const StereoReportInput& in, const DisparityColours& colours) {
     const DisparityScale scale = disparity_scale(640, 22, colours);
-    std::string numbers;
-    for (const ScaleTick& tick : scale.ticks)
-        numbers +=
-            fmt::format("<span style=\"left:{:.2f}%\">{:.4g}</span>", 100 * tick.x / 640, tick.disparity_px);
+    const int width = in.pair.view.picture_width;
+    std::string pixels, percent, degrees;
+    for (const ScaleTick& tick : scale.ticks) {
+        const double d = tick.disparity_px;
+        const std::string at = fmt::format("<span style=\"left:{:.2f}%\">", 100 * tick.x / 640);
+        pixels += fmt::format("{}{:.4g}</span>", at, d);
+        percent += fmt::format("{}{:.2f} %</span>", at, percent_of_width(d, width));
+        degrees += fmt::format("{}{:.2f}°</span>", at, vergence_deg(d, width, in.settings.rig));
+    }
     return fmt::format(
-        "<div class=\"scale\">{}<div class=\"numbers\">{}</div>"
-        "<div class=\"ends\"><span>behind the screen</span><span>pixels of disparity</span>"
-        "<span>in front of it</span></div></div>",
-        inline_png(encode_png(scale.strip.view()), "scale of disparity colours"), numbers);
+        "<div class=\"scale\">{}<div class=\"numbers\">{}</div><div class=\"numbers faint\">{}</div>"
+        "<div class=\"numbers faint\">{}</div>"
+        "<div class=\"ends\"><span>behind the screen</span>"
+        "<span>pixels, percent of the width, degrees of vergence</span><span>in front of "
+        "it</span></div></div>",
+        inline_png(encode_png(scale.strip.view()), "scale of disparity colours"), pixels, percent, degrees);
 }
 
 std::string disparity_section(const StereoReportInput& in, const Exec& exec) {
@@ -87,7 +95,8 @@ std::string disparity_section(const StereoReportInput& in, const Exec& exec) {
                    "Left minus right, seen from the middle between the eyes. Grey is the screen; stripes are "
                    "outside of the comfort zone; nearly black is where nothing is seen.",
                    "<div class=\"pair\">" + figure(picture(before, "disparity before"), "Before") +
-                       figure(picture(after, "disparity after"), "After") + "</div>" + scale_bar(colours));
+                       figure(picture(after, "disparity after"), "After") + "</div>" +
+                       scale_bar(in, colours));
 }
 
 std::string anaglyph_section(const StereoReportInput& in, const Exec& exec) {

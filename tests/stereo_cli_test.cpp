@@ -157,6 +157,17 @@ TEST_F(StereoCli, FramesHaveTheirNumbers) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a02.png"));
 }
 
+TEST_F(StereoCli, EveryFrameHasItsReport) {
+    folder.write("f.toml", std::string(small_scene) + "[frames]\nrange = \"1-3\"\n");
+    const Outcome nameless = run({"f.toml", "-q", "-o", "a#.png", "--report", "all.html"});
+    EXPECT_EQ(nameless.code, 2);
+    EXPECT_NE(nameless.err.find("several frames need ####"), std::string::npos) << nameless.err;
+    ASSERT_EQ(run({"f.toml", "-q", "-o", "a#.png", "--frames", "2-3", "--report", "r#.html"}).code, 0);
+    EXPECT_NE(file_text(folder / "r2.html").find("frame 2"), std::string::npos);
+    EXPECT_NE(file_text(folder / "r3.html").find("frame 3"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(folder / "r1.html"));
+}
+
 TEST_F(StereoCli, StatisticsHoldWhatWasDone) {
     const Outcome made =
         run({"s.toml", "-v", "-o", "a.png", "--stats-json", "s.json", "--map-scale", "2", "--solver", "fmg"});
@@ -202,6 +213,7 @@ TEST_F(StereoCli, MistakesAreRefusedBeforeAnyWork) {
                                   "[stereo]\n[[stereo.edit]]\nid = \"e\"\n"
                                   "type = \"anchor\"\nmaterials = [\"cube/lid\"]\n");
     folder.write("there.png", "");
+    folder.write("there.html", "");
     const std::vector<Mistake> mistakes = {
         {{}, 2, "SCENE is missing"},
         {{"s.toml", "--layout", "anaglyf"}, 2, "there is no layout 'anaglyf'; did you mean 'anaglyph'?"},
@@ -218,6 +230,9 @@ TEST_F(StereoCli, MistakesAreRefusedBeforeAnyWork) {
         {{"s.toml", "-o", "there.png"}, 5, "there.png"},
         {{"s.toml", "-o", "none/a.png"}, 5, "none/a.png"},
         {{"s.toml", "-o", "a.png", "--maps", "none/m"}, 5, "none/m.before.pfm"},
+        {{"s.toml", "-o", "a.png", "--report", "a.txt"}, 2, "'a.txt': reports end in .html"},
+        {{"s.toml", "-o", "a.png", "--report", "none/a.html"}, 5, "none/a.html"},
+        {{"s.toml", "-o", "a.png", "--report", "there.html"}, 5, "there.html"},
     };
     const std::vector<std::string> before = folder.listing();
     for (const Mistake& m : mistakes) {
