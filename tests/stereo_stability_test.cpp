@@ -284,7 +284,7 @@ TEST(StereoStability, LeavesBeforeAWall) {
 // --- the borders of the picture
 
 TEST(StereoStability, ObjectsCutByTheBorder) {
-    // A post 3 m away that the left border cuts in the middle, 5.4 px before the screen, 4 px further
+    // A post 3 m away that the left border cuts in the middle, 5.6 px before the screen, 4 px further
     // forward.
     const auto cut = [](const char* keys, const char* name, const char* margin) {
         const Case c = made(
