@@ -22,5 +22,9 @@ Image<Rgb8> lesson_10_adding_quads(const Exec& exec);
 Image<Rgb8> lesson_11_near_to_far(const Exec& exec);
 Image<Rgb8> lesson_12_colour(const Exec& exec);
 Image<Rgb8> lesson_13_disparity(const Exec& exec);
+Image<Rgb8> lesson_14_conflict(const Exec& exec);
+Image<Rgb8> lesson_15_jacobi(const Exec& any);
+Image<Rgb8> lesson_16_v_cycle(const Exec& any);
+Image<Rgb8> lesson_17_vertices(const Exec& exec);
 
 }  // namespace obscura

@@ -28,8 +28,11 @@
 #include "lessons/colour_sums.h"
 #include "lessons/plane_fields.h"
 #include "lessons/quad_fields.h"
+#include "lessons/stereo_edits.h"
+#include "lessons/stereo_panels.h"
 #include "lessons/stereo_scene.h"
 #include "lessons/tree_scene.h"
+#include "stereo/cascade.h"
 #include "stereo/disparity.h"
 
 namespace obscura {
@@ -40,7 +43,8 @@ namespace fs = std::filesystem;
 constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "7c9c081cfe7aeee7",
                             "da4e1855356c3fdd", "58e38df2aa3009e6", "bad0f240905ab4ef", "978e552047151592",
                             "1dd6abca9eac4735", "e7497af5c1d1ff89", "bb4e9518dd83ec37", "785e990e6bf9a847",
-                            "294c403290cf5138"};
+                            "294c403290cf5138", "eca675ed3ef3a2ad", "615076e03251fae8", "7a00fbcb5e569ae9",
+                            "1a908cd6c3f6b537"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
@@ -257,6 +261,79 @@ TEST(Lessons, LessonThirteensEyesFindTheMiddleViewsPoints) {
     EXPECT_GT(alone, 20);
     EXPECT_GT(compared, 500);
     EXPECT_GT(found, compared * 97 / 100);
+}
+
+/// The scene of lessons 14 to 17, its ball rounder and its bust pushed back.
+struct EditedScene {
+    StereoScene scene = stereo_scene();
+    MiddleView view = stereo_view(scene, 144, 96, {});
+    DisparitySystem system(const EditParams& params, bool matched = false) const {
+        std::vector<StereoEdit> edits = lesson_edits(view, 16);
+        if (matched) edits.push_back(lesson_match(view));
+        return lesson_system(scene, view, edits, params, {}).system;
+    }
+};
+
+TEST(Lessons, LessonFourteensInversionsAreGoneOnceSolved) {
+    const EditedScene s;
+    const auto turned = [&](const DisparityMap& map) {
+        return find_conflicts(s.view, map, {}, object_names(s.scene.mesh))
+            .count(ConflictKind::depth_inversion);
+    };
+    EditParams params;
+    params.interfaces = InterfaceGradients::edited;
+    EXPECT_EQ(turned(s.view.disparity), 0);
+    EXPECT_GT(turned(edited_disparity(s.view, lesson_edits(s.view, 16))), 50);
+    EXPECT_EQ(turned(minimiser(s.system(params), {})), 0);
+    params.reset_inversions = false;
+    EXPECT_GT(turned(minimiser(s.system(params), {})), 50);
+}
+
+TEST(Lessons, LessonFifteensSweepsAreSlowAndThePrintedSignIsWrong) {
+    EditParams edit;
+    edit.epsilon = 2e-3;
+    const DisparitySystem system = EditedScene().system(edit);
+    const DisparityMap truth = minimiser(system, {});
+    const auto error = [&](const DisparityMap& x) { return size_of(difference(x, truth)).rms_px; };
+    const double before = error(system.start);
+    EXPECT_GT(error(jacobi_sweeps(system, system.start, 100, {best_isa(), 1})), 0.5 * before);
+    SolverParams params;
+    params.method = SolverMethod::cascade;
+    const double corrected = error(solve(system, params, {best_isa(), 1}).disparity);
+    params.printed_sign = true;
+    EXPECT_LT(corrected, 0.5 * before);
+    EXPECT_GT(error(solve(system, params, {best_isa(), 1}).disparity), 2 * corrected);
+}
+
+TEST(Lessons, LessonSixteensConjugateGradientsOvertakeCycles) {
+    for (const bool matched : {false, true}) {
+        const DisparitySystem system = EditedScene().system({}, matched);
+        EXPECT_EQ(system.sets.size(), matched ? 1u : 0u);
+        const DisparityMap truth = minimiser(system, {});
+        const auto error = [&](SolverMethod method) {
+            SolverParams params;
+            params.method = method;
+            params.max_iterations = 6;
+            params.tolerance_max_px = params.tolerance_rms_px = 1e-9;
+            return size_of(difference(solve(system, params, {best_isa(), 1}).disparity, truth)).rms_px;
+        };
+        EXPECT_LT(error(SolverMethod::vcycle), 0.05);
+        EXPECT_LT(error(SolverMethod::multigrid), 0.1 * error(SolverMethod::vcycle));
+    }
+}
+
+TEST(Lessons, LessonSeventeensTrianglesFollowTheMapOnceCut) {
+    const EditedScene s;
+    const DisparityMap solved = minimiser(s.system({}), {});
+    ReprojectParams params;
+    ReprojectStats cut, whole;
+    moved_mesh(s.scene.mesh, s.scene.camera, s.view, solved, params, {}, cut);
+    params.max_splits = 0;
+    moved_mesh(s.scene.mesh, s.scene.camera, s.view, solved, params, {}, whole);
+    EXPECT_GT(cut.within, 0.999);
+    EXPECT_LT(whole.within, 0.9);
+    EXPECT_EQ(whole.triangles_out, whole.triangles_in);
+    EXPECT_LT(cut.triangles_out, 2 * cut.triangles_in);
 }
 
 TEST(Lessons, AnUnknownNumberIsAUsageError) {
