@@ -35,7 +35,7 @@ std::vector<KeySpec> rig_keys() {
         number_key("eye_separation_m", "Of the viewer.").in({0, 1, true}).or_else(d.eye_separation_m),
         integer_key("margin_px",
                     "Columns by which the middle view is wider than the picture, on either side; \"auto\": "
-                    "as many as the largest disparity needs.")
+                    "as many as the largest disparity needs, at most a quarter of the picture.")
             .in({0, 8192})
             .or_word("auto")
             .or_else("auto"),
@@ -63,6 +63,11 @@ std::vector<KeySpec> solver_keys() {
         integer_key("cascade_sweeps", "Jacobi sweeps per level of \"cascade\".")
             .in({0, 100000})
             .or_else(std::int64_t{d.sweeps}),
+        boolean_key(
+            "warm_start",
+            "Solves a frame from the map of the one before, in fewer iterations; its pixels then depend, "
+            "within the tolerance, on which frames are rendered.")
+            .or_else(false),
         boolean_key("half_storage", "Keeps the maps of \"cascade\" as 16-bit floats, as the paper does.")
             .or_else(d.half_storage),
         number_key("tessellation_px", "Triangles are split until their disparity is this near to the map's.")

@@ -89,7 +89,15 @@ void check_outputs(const StereoPlan& plan, const StereoOptions& options) {
         for (const StereoFile& file : plan.files)
             check_writable(stereo_path(plan.files, file.role, frame), plan.existing);
     }
-    if (!options.stats_json.empty()) check_writable(options.stats_json, plan.existing);
+    if (options.stats_json.empty()) return;
+    for (const int frame : plan.frames) {
+        for (const StereoFile& file : plan.files) {
+            if (stereo_path(plan.files, file.role, frame) == options.stats_json)
+                throw UsageError(
+                    fmt::format("--stats-json: '{}' is one of the pictures", options.stats_json.string()));
+        }
+    }
+    check_writable(options.stats_json, plan.existing);
 }
 
 void shrink_for_preview(Scene& scene) {

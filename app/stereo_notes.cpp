@@ -56,11 +56,14 @@ void add_solver(const StereoPair& pair, const StereoSettings& settings, std::vec
     }
     for (std::size_t i = 0; i < std::min(named.size(), most_unsatisfied); ++i) {
         const Unsatisfied& u = *named[i];
+        const auto title = [](const std::string& name) {
+            return name == limits_area_name ? "the " + name : fmt::format("edit '{}'", name);
+        };
         notes.push_back(fmt::format(
-            "edit '{}' is not satisfied: it wants {:.2f} px and gets {:.2f} on average, {:.2f} px off at "
+            "{} is not satisfied: it wants {:.2f} px and gets {:.2f} on average, {:.2f} px off at "
             "worst, {} pixels by more than {:.2g}; against it {}",
-            u.name, u.wanted_px, u.reached_px, u.worst_px, u.pixels, unsatisfied_px,
-            u.against.empty() ? "pull the depths around" : fmt::format("pulls edit '{}'", u.against)));
+            title(u.name), u.wanted_px, u.reached_px, u.worst_px, u.pixels, unsatisfied_px,
+            u.against.empty() ? "pull the depths around" : "pulls " + title(u.against)));
     }
     if (named.size() > most_unsatisfied)
         notes.push_back(fmt::format("and {} more edits are not", named.size() - most_unsatisfied));

@@ -37,9 +37,9 @@ std::vector<std::string> object_names(const Mesh& mesh) {
 }
 
 /// Where the solve starts: last frame's change on this frame's surfaces, or nothing.
-DisparityMap start_of(const StereoCache& cache, const MiddleView& view, const Camera& camera,
-                      const Exec& exec) {
-    if (!cache.last) return {};
+DisparityMap start_of(const StereoSettings& settings, const StereoCache& cache, const MiddleView& view,
+                      const Camera& camera, const Exec& exec) {
+    if (!settings.warm_start || !cache.last) return {};
     const SeenFrame before{cache.last->view, cache.last->camera}, now{view, camera};
     return carried_map(before, cache.last->solution, now, WarmStartParams{}, exec);
 }
@@ -73,7 +73,7 @@ void solve_map(const Scene& scene, const StereoSettings& settings, const Exec& e
         pair.times.solve_s = solving.seconds();
         return;
     }
-    const DisparityMap start = start_of(cache, view, scene.camera, exec);
+    const DisparityMap start = start_of(settings, cache, view, scene.camera, exec);
     pair.warm = !start.pixels.empty();
     pair.solution =
         solve(lower ? pair.reduced_system : pair.edited.system, settings.solver, exec, start, &cache.solver);

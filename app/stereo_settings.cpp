@@ -246,6 +246,7 @@ StereoSettings stereo_settings(const SceneDocument& document, const Scene& scene
     const auto* margin = std::get_if<std::int64_t>(&table.find("margin_px")->value.data);
     if (margin != nullptr) s.margin_px = static_cast<int>(static_cast<double>(*margin) * r.px + 0.5);
     s.map_scale = static_cast<int>(integer(table, "map_scale"));
+    s.warm_start = boolean(table, "warm_start");
     s.edit = edit_params_of(table, s.rig, scene.render.width);
     s.solver = solver_of(table);
     s.compare_remap = remap_of(table, scene.render.width);

@@ -22,6 +22,8 @@ struct StereoSettings {
     StereoRig rig;
     int margin_px = auto_margin;    ///< columns that the middle view has on either side of the picture; >= 0
     int map_scale = 1;              ///< the system is solved at 1 : 1, 2, 4 or 8
+    bool warm_start = false;        ///< a frame is solved from the one before: faster, within the tolerance
+                                    ///< of what it is alone, but not to the bit
     std::vector<StereoEdit> edits;  ///< weights with fades and keyframes of this frame
     EditParams edit;
     RangeRemap remap;  ///< of any kind but none: instead of edits, one curve for all, for comparison

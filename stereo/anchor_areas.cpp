@@ -41,9 +41,8 @@ std::vector<AnchorArea> anchor_areas(const ClassMap& map, const std::vector<Clas
         if (!area.pixels.empty()) areas.push_back(std::move(area));
     }
     // Where conflicts added weight, D~ stands at the limit that they leave.
-    AnchorArea limits{"comfort zone and sides of the picture",
-                      static_cast<float>(std::max(params.comfort_weight, params.window_weight)),
-                      {}};
+    AnchorArea limits{
+        limits_area_name, static_cast<float>(std::max(params.comfort_weight, params.window_weight)), {}};
     const double unit = static_cast<double>(system.epsilon) / params.epsilon;  // of a reduced map's pixels
     for_pixels(map, [&](int x, int y, std::uint32_t c) {
         const double own = unit * params.anchor_weight * shapes[c].anchor_weight;

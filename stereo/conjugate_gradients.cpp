@@ -244,7 +244,8 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
             alpha = 0;
             break;
         }
-        alpha = stationary ? 1.0 : rz / sums.curvature;
+        // A whole step of a cycle may overshoot where sets and anchors are; one to the least energy cannot.
+        alpha = stationary ? std::min(1.0, rz / sums.curvature) : rz / sums.curvature;
         ++report.iterations;
         SolveStep step;
         step.error_max_px = largest.after(alpha * sums.largest);

@@ -36,6 +36,9 @@ struct MatchingSet {
     std::vector<MatchedPixel> members;  ///< ascending in (y, x), no pixel twice
 };
 
+/// Name of the area where comfort zone and sides of the picture hold edits back.
+constexpr const char* limits_area_name = "comfort zone and sides of the picture";
+
 /// What one edit's anchor asks for, pixel by pixel. For reports: the energy reads the sums of all of them.
 struct AnchorArea {
     std::string name;                  ///< of the edit

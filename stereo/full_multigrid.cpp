@@ -82,6 +82,23 @@ GridVector left_over(const GridLevel& level, const GridVector& b, const GridVect
     return r;
 }
 
+/// Sum of the products, cells row by row in double.
+double dot(const GridVector& a, const GridVector& b, const Exec& exec) {
+    std::vector<double> rows(static_cast<std::size_t>(a.cells.height()), 0.0);
+    for_rows(a.cells.height(), exec, [&](int y) {
+        double sum = 0;
+        for (int x = 0; x < a.cells.width(); ++x)
+            sum += static_cast<double>(a.cells.row(y)[x]) * static_cast<double>(b.cells.row(y)[x]);
+        rows[static_cast<std::size_t>(y)] = sum;
+    });
+    double sum = 0;
+    for (const double row : rows)
+        sum += row;
+    for (std::size_t k = 0; k < a.hubs.size(); ++k)
+        sum += a.hubs[k] * b.hubs[k];
+    return sum;
+}
+
 /// Adds one V-cycle from level l down to what x leaves of b.
 void improve(GridHierarchy& h, std::size_t l, const GridVector& b, GridVector& x, const Exec& exec) {
     GridVector r = left_over(h.levels[l], b, x, exec);
@@ -92,14 +109,20 @@ void improve(GridHierarchy& h, std::size_t l, const GridVector& b, GridVector& x
     solve_coarsest(h, hubs);
     for (std::size_t i = last - 1; i > l; --i)
         ascend(h.levels[i], h.levels[i].rhs, h.levels[i + 1], hubs, h.levels[i].solution, exec);
-    GridPlane correction(h.levels[l].width, h.levels[l].height);
-    ascend(h.levels[l], r.cells, h.levels[l + 1], hubs, correction, exec);
+    GridVector step{GridPlane(h.levels[l].width, h.levels[l].height), std::move(hubs)};
+    ascend(h.levels[l], r.cells, h.levels[l + 1], step.hubs, step.cells, exec);
+
+    // No farther than to the least energy along the correction: sets and anchors may make it too long.
+    const double slope = dot(r, step, exec);
+    const double curvature = slope - dot(left_over(h.levels[l], r, step, exec), step, exec);
+    const double length = slope < curvature ? slope / curvature : 1.0;
+    if (!(slope > 0)) return;
     for_rows(h.levels[l].height, exec, [&](int y) {
         for (int i = 0; i < h.levels[l].width; ++i)
-            x.cells.row(y)[i] += correction.row(y)[i];
+            x.cells.row(y)[i] += static_cast<float>(length) * step.cells.row(y)[i];
     });
-    for (std::size_t k = 0; k < hubs.size(); ++k)
-        x.hubs[k] += hubs[k];
+    for (std::size_t k = 0; k < step.hubs.size(); ++k)
+        x.hubs[k] += length * step.hubs[k];
 }
 
 }  // namespace

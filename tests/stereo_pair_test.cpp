@@ -178,9 +178,24 @@ TEST(StereoPair, SameBitsForAnyExec) {
     }
 }
 
+TEST(StereoPair, NoFrameDependsOnThoseBefore) {
+    Scene scene = room();
+    StereoCache cache, fresh;
+    StereoPair pair, alone;
+    StereoPairOptions options;
+    options.pictures = false;
+    render_stereo_pair(scene, edited_settings(), options, {}, cache, pair);
+    scene.camera.eye.x += 0.05;
+    render_stereo_pair(scene, edited_settings(), options, {}, cache, pair);
+    render_stereo_pair(scene, edited_settings(), options, {}, fresh, alone);
+    EXPECT_FALSE(pair.warm);
+    EXPECT_EQ(pair.optimised, alone.optimised);
+}
+
 TEST(StereoPair, StaticSurfacesStaySteady) {
     Scene scene = room();
-    const StereoSettings settings = edited_settings();
+    StereoSettings settings = edited_settings();
+    settings.warm_start = true;
     StereoCache cache;
     StereoPair pair;
     StereoPairOptions options;

@@ -262,7 +262,7 @@ Steadiness sequence(const char* name, const std::string& keys, const std::string
         StereoPair pair;
         StereoPairOptions options;
         options.pictures = false;
-        if (!warm) cache.forget();
+        c.settings.warm_start = warm;
         render_stereo_pair(c.scene, c.settings, options, Exec{}, cache, pair);
         worst.iterations += pair.solution.report.iterations;
         Seen now{pair.view, pair.optimised, c.scene.camera};

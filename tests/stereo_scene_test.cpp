@@ -203,7 +203,7 @@ void add(Hasher& h, const StereoSettings& s) {
     h.value(s.edit.comfort_weight).value(s.edit.window_weight).value(s.edit.reset_inversions);
     h.value(s.edit.interfaces).value(s.edit.window_inherited).value(s.edit.limit_folds);
     h.value(s.solver.method).value(s.solver.tolerance_max_px).value(s.solver.max_iterations);
-    h.value(s.solver.sweeps).value(s.solver.half_storage).value(s.reproject.tolerance_px);
+    h.value(s.solver.sweeps).value(s.solver.half_storage).value(s.warm_start).value(s.reproject.tolerance_px);
     h.value(s.compare_remap.kind)
         .value(s.compare_remap.nearest_px)
         .value(s.compare_remap.farthest_px)
