@@ -244,13 +244,16 @@ std::vector<VariantSpec> edit_variants() {
 
 std::vector<KeySpec> fade_keys() {
     return {
-        vec2_key("fade_angle_deg",
-                 "[full, none]: the weight fades out between these angles of the view from fade_direction.")
+        vec2_key(
+            "fade_angle_deg",
+            "[full, none]: the weight, and the offset of an anchor, fade out between these angles of the "
+            "view from fade_direction.")
             .in({0, 180}),
         vec3_key("fade_direction", "Direction of the view for which fade_angle_deg is 0.").in(anywhere),
-        vec2_key("fade_distance_m",
-                 "[full, none]: the weight fades out between these distances of the camera from "
-                 "fade_position_m.")
+        vec2_key(
+            "fade_distance_m",
+            "[full, none]: the weight, and the offset of an anchor, fade out between these distances of the "
+            "camera from fade_position_m.")
             .in({0, 1e9}),
         vec3_key("fade_position_m", "Where fade_distance_m is measured from.").in(anywhere),
     };

@@ -221,8 +221,8 @@ void add_edit(Reader& r, const SceneTable& edit) {
     const Camera& camera = r.scene.camera;
     StereoEdit result;
     result.name = text(edit, "id");
-    result.weight = number(edit, "weight") *
-                    fade_factor(fade_of(edit), camera.eye, normalize(camera.look_at - camera.eye));
+    const double fade = fade_factor(fade_of(edit), camera.eye, normalize(camera.look_at - camera.eye));
+    result.weight = number(edit, "weight") * fade;
     auto wish = wish_of(r, edit);
     if (!wish) {
         r.settings.notes.push_back(fmt::format(
@@ -230,6 +230,9 @@ void add_edit(Reader& r, const SceneTable& edit) {
             result.name));
         return;
     }
+    // Pulls of many pixels add up, so that an anchor's weight does nothing for long and everything at the
+    // end: what it pulls to goes with it.
+    if (auto* anchor = std::get_if<AnchorEdit>(&*wish)) anchor->offset_px *= fade;
     result.what = std::move(*wish);
     r.settings.edits.push_back(std::move(result));
 }

@@ -387,6 +387,9 @@ TEST_F(StereoSettingsOf, WeightsFadeAndMove) {
     EXPECT_EQ(faded("[6, 10]"), 4);
     EXPECT_NEAR(faded("[4, 6]"), 2, 1e-9);
     EXPECT_EQ(faded("[1, 2]"), 0);
+    const StereoSettings half =
+        settings(edit(anchor + "offset_px = 3\nfade_distance_m = [4, 6]\nfade_position_m = [0, 1, 0]"));
+    EXPECT_NEAR(std::get<AnchorEdit>(half.edits.at(0).what).offset_px, 1.5, 1e-9) << "goes with the weight";
     const std::string moving = edit(anchor) +
                                "[frames]\nrange = \"1-5\"\n[[frames.stereo_edit]]\nframe = 1\nid = \"e\"\n"
                                "weight = 0\n[[frames.stereo_edit]]\nframe = 5\nid = \"e\"\nweight = 8\n";
