@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "optics/aperture_shapes.h"
 #include "optics/quads.h"
 

@@ -7,7 +7,7 @@
 #include "core/isa.h"
 #include "core/mesh.h"
 #include "core/types.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 
 namespace obscura {
 

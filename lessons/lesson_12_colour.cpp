@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "lessons/colour_sums.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/pattern_panels.h"
 #include "lessons/plane_fields.h"

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/pattern_panels.h"
 #include "lessons/stereo_panels.h"

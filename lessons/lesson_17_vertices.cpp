@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/stereo_edits.h"
 #include "lessons/stereo_panels.h"

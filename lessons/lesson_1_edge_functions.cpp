@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/topology.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/texel_space.h"
 #include "raster/coverage.h"

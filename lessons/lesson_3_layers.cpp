@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "lessons/cut.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "raster/layers.h"
 

@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "lessons/cut.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "raster/interval_map.h"
 #include "raster/layers.h"

@@ -15,7 +15,7 @@
 #include "core/error.h"
 #include "hierarchy/combine.h"
 #include "hierarchy/multires.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/tree_panels.h"
 #include "lessons/tree_scene.h"

@@ -16,7 +16,7 @@
 
 #include "hierarchy/decode.h"
 #include "hierarchy/shadow_tree.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/tree_scene.h"
 #include "raster/interval_map.h"

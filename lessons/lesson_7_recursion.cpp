@@ -13,7 +13,7 @@
 
 #include "core/error.h"
 #include "hierarchy/build.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/tree_scene.h"
 #include "raster/interval_map.h"

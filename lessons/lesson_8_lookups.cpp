@@ -19,7 +19,7 @@
 #include "core/parallel.h"
 #include "filters/shadow_lookup.h"
 #include "hierarchy/build.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/seen_surfaces.h"
 #include "lessons/tree_panels.h"

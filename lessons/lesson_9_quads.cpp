@@ -14,7 +14,7 @@
 
 #include "core/error.h"
 #include "lessons/aperture_panels.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/pattern_panels.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 
 namespace obscura {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "stereo/disparity_colour.h"
 
 namespace obscura {

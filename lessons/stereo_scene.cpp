@@ -8,7 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/topology.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "raster/depth_map.h"
 #include "raster/depth_tile.h"
 #include "raster/surface.h"

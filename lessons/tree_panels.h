@@ -6,7 +6,7 @@
 #include "core/image.h"
 #include "core/types.h"
 #include "filters/shadow_lookup.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "lessons/tree_scene.h"
 
 namespace obscura {

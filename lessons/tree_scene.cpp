@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "core/topology.h"
-#include "lessons/figure.h"
+#include "lessons/drawing/figure.h"
 #include "raster/view.h"
 #include "scenes/build.h"
 #include "scenes/city.h"

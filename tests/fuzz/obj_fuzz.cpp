@@ -1,9 +1,9 @@
-#include "obj_fuzz.h"
+#include "tests/fuzz/obj_fuzz.h"
 
 #include <cmath>
 #include <string_view>
 
-#include "app/obj_file.h"
+#include "app/scene/obj_file.h"
 #include "core/error.h"
 
 namespace obscura {

@@ -1,6 +1,6 @@
-#include "scene_fuzz.h"
+#include "tests/fuzz/scene_fuzz.h"
 
-#include "app/scene_file.h"
+#include "app/scene/scene_file.h"
 #include "core/error.h"
 
 namespace obscura {

@@ -1,4 +1,4 @@
-#include "tree_fuzz.h"
+#include "tests/fuzz/tree_fuzz.h"
 
 #include <algorithm>
 #include <cstring>

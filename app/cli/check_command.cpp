@@ -1,0 +1,186 @@
+#include "app/cli/check_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "app/report/lens_text.h"
+#include "app/frame/render_frame.h"
+#include "app/frame/shadow_text.h"
+#include "app/frame/shadows.h"
+#include "app/frame/load_scene.h"
+#include "app/frame/memory.h"
+#include "app/scene/keyframes.h"
+#include "app/scene/stereo_settings.h"
+#include "raster/shadow_map.h"
+#include "raster/view.h"
+
+namespace obscura {
+namespace {
+
+std::string point_text(Vec3d p) {
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z);
+}
+
+std::string camera_text(const Camera& c) {
+    const std::string lens = c.kind == CameraKind::perspective
+                                 ? fmt::format("perspective, {:.4g} degrees high", c.vfov_deg)
+                                 : fmt::format("orthographic, {:.4g} m high", c.height_m);
+    return fmt::format("camera    {}, from {} m to {} m\n", lens, point_text(c.eye), point_text(c.look_at));
+}
+
+std::string picture_text(const SceneDocument& document, const Scene& scene) {
+    const FrameRange range = scene_frames(document);
+    const SceneTable& frames = subtable(document.root, "frames");
+    const std::size_t keyframes = subtables(frames, "camera").size() + subtables(frames, "light").size() +
+                                  subtables(frames, "optics").size() + subtables(frames, "stereo").size() +
+                                  subtables(frames, "stereo_edit").size();
+    std::string out = fmt::format("picture   {} x {} pixels, {} sample{} each, exposure {:+.4g} EV\n",
+                                  scene.render.width, scene.render.height, scene.render.samples,
+                                  scene.render.samples == 1 ? "" : "s", scene.render.exposure_ev);
+    out += fmt::format("frames    {} ({})", range.count(), text(frames, "range"));
+    if (keyframes > 0) out += fmt::format(", {} keyframes, {}", keyframes, text(frames, "interpolation"));
+    out += '\n';
+    for (const SceneTable* output : subtables(document.root, "output")) {
+        out += fmt::format("output    {} -> {}\n", text(*output, "aov"), text(*output, "file"));
+    }
+    return out;
+}
+
+const char* kind_text(LightKind kind) {
+    switch (kind) {
+        case LightKind::directional:
+            return "directional";
+        case LightKind::sun:
+            return "sun";
+        case LightKind::point:
+            return "point";
+        case LightKind::spot:
+            return "spot";
+    }
+    return "";
+}
+
+/// ", texels of 34 mm": how fine the parallel light's map is; it covers all of the scene.
+std::string texel_text(const Light& light, const Scene& scene) {
+    const bool parallel = light.kind == LightKind::directional || light.kind == LightKind::sun;
+    if (!parallel || scene.mesh.triangles.empty()) return "";
+    const int n = light.shadow.resolution;
+    const LightView view =
+        light.shadow.method == ShadowMethod::map
+            ? orthographic_light_view(bounds_of(scene.mesh), light.direction, n)
+            : fitted_light_view(caster_box(scene.mesh, light.direction), light.direction, n);
+    return fmt::format(", texels of {:.3g} mm", 1000 * texel_size_m(view));
+}
+
+std::string tree_text(const Light& light) {
+    const ShadowSettings& s = light.shadow;
+    std::string out = s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
+    if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
+    return out + (s.filter == ShadowFilter::pcf ? "" : ", filtered hierarchically");
+}
+
+/// Whether something casts shadows that is not the outside of a solid.
+bool open_casters(const Mesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const bool casts = mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow;
+        if (casts && !mesh.components[mesh.component[t]].closed) return true;
+    }
+    return false;
+}
+
+/// `light`: its resolution as found.
+std::string light_text(const Light& light, const std::optional<FoundResolution>& found, const Scene& scene) {
+    std::string out = fmt::format("light     {}: {}", light.id, kind_text(light.kind));
+    if (light.below_horizon) out += ", below the horizon in the first frame";
+    const int maps = shadow_map_count(light);
+    if (maps == 0) return out + ", no shadows\n";
+    const bool dense = light.shadow.method == ShadowMethod::map;
+    out += fmt::format(", {} {} shadow map{}", maps, dense ? "dense" : "compressed", maps == 1 ? "" : "s");
+    if (light.shadow.resolution == auto_resolution) return out + ", resolution auto\n";
+    const int n = light.shadow.resolution;
+    out += fmt::format(" of {} x {}{}, filter {} x {}{}", n, n, texel_text(light, scene),
+                       light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
+    out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(shadow_map_bytes(light)));
+    if (found) out += fmt::format("          {}\n", resolution_text(*found));
+    if (found && found->capped) out += fmt::format("note      {}\n", capped_text(light, *found));
+    if (!dense && light.shadow.receivers == Receivers::any && open_casters(scene.mesh)) {
+        out += fmt::format(
+            "note      light '{}': open surfaces under receivers = \"any\": the tree may need {} x {} "
+            "nodes\n",
+            light.id, n, n);
+    }
+    return out;
+}
+
+/// Puts what "auto" means for the first frame in the lights' places.
+std::vector<std::optional<FoundResolution>> settle_resolutions(Scene& scene, const Exec& exec) {
+    std::vector<std::optional<FoundResolution>> found(scene.lights.size());
+    const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+        return casts_shadows(light) && light.shadow.resolution == auto_resolution;
+    });
+    if (!any || scene.mesh.triangles.empty()) return found;
+    check_memory(estimate_memory(scene), scene.limits, "the depth image");
+    FrameCache cache;
+    FrameStats stats;
+    prepare_scene(scene, exec, cache, stats);
+    const TileScene tiles = prepare_tiles(scene, exec, cache);
+    found = auto_resolutions(scene, tiles, exec);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (found[i]) scene.lights[i].shadow.resolution = found[i]->resolution;
+    }
+    return found;
+}
+
+std::string mesh_text(const Scene& scene) {
+    const Mesh& mesh = scene.mesh;
+    const auto closed = std::count_if(mesh.components.begin(), mesh.components.end(),
+                                      [](const Component& c) { return c.closed; });
+    std::string out =
+        fmt::format("meshes    {} triangles, {} vertices, {} objects, {} closed and {} open components\n",
+                    mesh.triangles.size(), mesh.positions.size(), mesh.objects.size(), closed,
+                    static_cast<std::int64_t>(mesh.components.size()) - closed);
+    if (mesh.triangles.empty()) out += "note      there is nothing to see but the sky\n";
+    out += fmt::format("materials {}\n", scene.materials.size());
+    for (const Texture& t : scene.textures) {
+        out += fmt::format("texture   {}: {} x {} pixels, {} levels\n", t.name, t.levels[0].width,
+                           t.levels[0].height, t.levels.size());
+    }
+    return out;
+}
+
+std::string memory_text(const Scene& scene) {
+    const MemoryEstimate e = estimate_memory(scene);
+    return fmt::format("memory    about {} of {} MiB: meshes {}, textures {}, shadow maps {}, frame {}\n",
+                       size_text(e.total()), scene.limits.memory_mib, size_text(e.meshes),
+                       size_text(e.textures), size_text(e.shadow_maps), size_text(e.frame));
+}
+
+}  // namespace
+
+std::string check_report(const CheckOptions& options) {
+    const SceneDocument document = read_scene(options.scene, options.overrides);
+    const FileAccess access{document.folder, options.allowed_paths};
+    Scene scene = load_scene(document, access);
+    std::string out = fmt::format("scene     {}\n", options.scene.string());
+    out += picture_text(document, scene) + camera_text(scene.camera);
+    const auto found = settle_resolutions(scene, Exec{});
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        out += light_text(scene.lights[i], found[i], scene);
+    out += lens_text(scene.optics, scene.render);
+    if (document.root.has("stereo")) {
+        out += stereo_text(stereo_settings(document, scene, scene_frames(document).first, access), scene);
+    }
+    return out + mesh_text(scene) + memory_text(scene) + "ok\n";
+}
+
+int check_command(const CheckOptions& options) {
+    const std::string report = check_report(options);
+    std::fputs(report.c_str(), stdout);
+    return 0;
+}
+
+}  // namespace obscura

@@ -1,0 +1,50 @@
+#pragma once
+// Values of command-line flags out of their text. Everything throws UsageError that names the flag.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/scene/keyframes.h"
+#include "core/isa.h"
+#include "core/scene.h"
+
+namespace obscura {
+
+/// A decimal whole number in [low, high]; leading zeros mean nothing.
+std::int64_t whole_number(const std::string& flag, std::string_view text, std::int64_t low,
+                          std::int64_t high);
+/// A finite decimal number in [low, high].
+double real_number(const std::string& flag, std::string_view text, double low, double high);
+
+/// "960x540".
+Size2 size_value(const std::string& flag, std::string_view text);
+
+/// Pixels x0 <= x < x1, y0 <= y < y1 of the whole picture, row 0 on top.
+struct PixelRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    int width() const { return x1 - x0; }
+    int height() const { return y1 - y0; }
+    friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+/// "x0,y0,x1,y1", not empty, inside a width x height picture.
+PixelRect crop_value(const std::string& flag, std::string_view text, int width, int height);
+
+/// A pixel of the picture.
+struct PixelPlace {
+    int x = 0, y = 0;
+};
+/// "x,y" inside a width x height picture.
+PixelPlace pixel_value(const std::string& flag, std::string_view text, int width, int height);
+
+/// "auto" or the name of an instruction set that runs on this machine.
+Isa isa_value(const std::string& flag, std::string_view text);
+
+/// "depth,normal,...": names of pictures besides the beauty, duplicates dropped.
+std::vector<Aov> aov_values(const std::string& flag, std::string_view text);
+
+/// "1-48x2" or "1,5,9-12": in ascending order, duplicates dropped. Every frame must be one of the scene's.
+std::vector<int> frame_values(const std::string& flag, std::string_view text, const FrameRange& scene);
+
+}  // namespace obscura

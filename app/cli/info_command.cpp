@@ -1,0 +1,105 @@
+#include "app/cli/info_command.h"
+
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "core/edges.h"
+#include "core/error.h"
+
+namespace obscura {
+namespace {
+
+std::size_t count_if(const std::vector<Component>& components, auto&& predicate) {
+    return static_cast<std::size_t>(std::count_if(components.begin(), components.end(), predicate));
+}
+
+std::size_t faces_with_area(const Mesh& mesh) {
+    std::vector<bool> has_area(mesh.faces.size(), false);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& v = mesh.triangles[t].v;
+        if (!is_degenerate(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]])) {
+            has_area[mesh.face[t]] = true;
+        }
+    }
+    return static_cast<std::size_t>(std::count(has_area.begin(), has_area.end(), true));
+}
+
+void bounds(const Mesh& mesh, MeshInfo& info) {
+    if (mesh.positions.empty()) return;
+    info.min = info.max = mesh.positions.front();
+    for (const Vec3f& p : mesh.positions) {
+        info.min = {std::min(info.min.x, p.x), std::min(info.min.y, p.y), std::min(info.min.z, p.z)};
+        info.max = {std::max(info.max.x, p.x), std::max(info.max.y, p.y), std::max(info.max.z, p.z)};
+    }
+}
+
+template <class... Args>
+void row(std::ostream& out, std::string_view label, fmt::format_string<Args...> format, Args&&... args) {
+    fmt::print(out, "{:<22}{}\n", label, fmt::format(format, std::forward<Args>(args)...));
+}
+
+void write_table(const InfoOptions& options, const ObjModel& model, const MeshInfo& info, std::ostream& out) {
+    fmt::print(out, "{}\n", options.file.string());
+    row(out, "triangles", "{}", info.triangles);
+    row(out, "vertices", "{}", info.vertices);
+    row(out, "objects", "{}", info.objects);
+    row(out, "materials", "{}", info.materials);
+    row(out, "textures", "{}", model.texture_files.size());
+    row(out, "components", "{} closed, {} open", info.closed, info.open);
+    row(out, "  of the closed", "{} with balanced multi-edges, {} inside out", info.closed_with_multi_edges,
+        info.inside_out);
+    const auto edges = [&](std::string_view label, const TopologyReport::Edges& e) {
+        row(out, label, "{} without a partner, {} with more than two faces", e.open, e.multi);
+    };
+    edges("edges, by index", info.topology.by_index);
+    edges("edges, welded", info.topology.welded);
+    row(out, "degenerate triangles", "{}", info.topology.degenerate_triangles);
+    row(out, "planar faces", "{}", info.planar_faces);
+    row(out, "bounding box", "({:.6g}, {:.6g}, {:.6g}) / ({:.6g}, {:.6g}, {:.6g})", info.min.x, info.min.y,
+        info.min.z, info.max.x, info.max.y, info.max.z);
+    for (const std::string& message : model.missing)
+        fmt::print(out, "missing: {}\n", message);
+}
+
+}  // namespace
+
+MeshInfo inspect(const ObjModel& model) {
+    const Mesh& mesh = model.mesh;
+    MeshInfo info;
+    info.triangles = mesh.triangles.size();
+    info.vertices = model.file_positions;
+    info.objects = mesh.objects.size();
+    info.materials = model.materials.size();
+    info.planar_faces = faces_with_area(mesh);
+    info.topology = model.topology;
+    info.closed = count_if(mesh.components, [](const Component& c) { return c.closed; });
+    info.open = mesh.components.size() - info.closed;
+    info.closed_with_multi_edges =
+        count_if(mesh.components, [](const Component& c) { return c.closed && c.balanced_multi_edges; });
+    const std::vector<double> volumes = signed_volumes(mesh);
+    for (std::size_t c = 0; c < volumes.size(); ++c)
+        info.inside_out += mesh.components[c].closed && volumes[c] < 0;
+    bounds(mesh, info);
+    return info;
+}
+
+int info_command(const InfoOptions& options, std::ostream& out) {
+    // The user named this file, so it may be a link; what it names in turn must lie beside it.
+    std::error_code error;
+    std::filesystem::path file = std::filesystem::canonical(options.file, error);
+    if (error) file = options.file;
+    const FileAccess access{file.parent_path(), options.allowed_paths};
+    ObjOptions obj;
+    obj.allow_missing = options.allow_missing;
+    const ObjModel model = load_obj(file, access, options.limits, obj);
+    write_table(options, model, inspect(model), out);
+    return static_cast<int>(ExitCode::ok);
+}
+
+int info_command(const InfoOptions& options) {
+    return info_command(options, std::cout);
+}
+
+}  // namespace obscura

@@ -1,0 +1,54 @@
+#pragma once
+// Tells how far the work is: one line that renews itself on a terminal, one line per 10 % elsewhere.
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <mutex>
+#include <string>
+
+namespace obscura {
+
+/// Whether `stream` is a terminal, and one that may be coloured (NO_COLOR unset or empty, TERM not "dumb").
+bool is_terminal(std::FILE* stream);
+bool wants_colour(std::FILE* stream);
+
+class Progress {
+  public:
+    enum class Style { silent, lines, live };
+    /// The style that fits `stream`.
+    static Style style_for(std::FILE* stream, bool quiet);
+
+    Progress(std::FILE* stream, Style style);
+    ~Progress() { clear(); }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// What is under way and its share [from, to] of all the work. Single-threaded.
+    void begin(std::string label, double from, double to);
+    /// Fraction in [0, 1] of what is under way. From any thread; cheap when there is nothing to say.
+    void update(double fraction);
+    /// Takes the live line away, so that something else can be said.
+    void clear();
+    /// All is done: the last of the lines, or no live line any more.
+    void finish();
+
+  private:
+    void show(double share);
+    double seconds() const;  ///< since the beginning
+
+    using Clock = std::chrono::steady_clock;
+    std::FILE* stream;
+    Style style;
+    Clock::time_point start = Clock::now();
+    std::mutex mutex;
+    std::atomic<std::int64_t> next_ms{0};  ///< live: nothing is written before
+    std::atomic<int> next_tenth{1};        ///< lines: nothing is written before this many tenths
+    std::string label;
+    double from = 0, to = 1;
+    std::once_flag first;
+    double first_s = 0, first_share = 0;  ///< at the first update
+    bool line_open = false;
+};
+
+}  // namespace obscura

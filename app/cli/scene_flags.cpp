@@ -1,0 +1,40 @@
+#include "app/cli/scene_flags.h"
+
+#include <fmt/format.h>
+
+#include "app/cli/flag_values.h"
+#include "core/error.h"
+
+namespace obscura {
+
+void SceneFlags::add_to(Flags& flags) {
+    flags.positional("SCENE", scene, "The scene file (TOML).");
+    flags.group("Scene");
+    flags.list("-D,--define", "KEY=VALUE", overrides,
+               "Replace a value of the scene: a dotted key, lists by an element's id or number, the value in "
+               "TOML; may be given again. Example: -D camera.vfov_deg=30");
+    flags.text("--size", "WxH", size, "Size of the picture in pixels.", "the scene's");
+    flags.whole("--samples", "N", samples, 1, 16, "Samples per pixel: 1, 4 or 16.", "the scene's");
+    flags.list("--allow-path", "DIR", allowed,
+               "A folder besides the scene's own that its files may lie in; may be given again.");
+    flags.whole("--limit-memory", "MIB", memory_mib, 1, 1'000'000'000,
+                "Refuse to start when the estimate is above this, in MiB.", "the scene's, 4096");
+}
+
+std::vector<std::string> SceneFlags::all_overrides() const {
+    std::vector<std::string> all = overrides;
+    if (!size.empty()) {
+        const Size2 s = size_value("--size", size);
+        all.push_back(fmt::format("render.size_px=[{},{}]", s.width, s.height));
+    }
+    if (samples != 0) {
+        if (samples != 1 && samples != 4 && samples != 16) {
+            throw UsageError(fmt::format("--samples: '{}' is not 1, 4 or 16", samples));
+        }
+        all.push_back(fmt::format("render.samples={}", samples));
+    }
+    if (memory_mib != 0) all.push_back(fmt::format("limits.memory_mib={}", memory_mib));
+    return all;
+}
+
+}  // namespace obscura

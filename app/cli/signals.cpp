@@ -1,0 +1,69 @@
+#include "app/cli/signals.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include "core/error.h"
+#include "core/file_output.h"
+
+namespace obscura {
+namespace {
+
+// A handler can reach nothing but globals; these are lock-free and written by nobody else.
+constinit std::atomic<bool> stop{false};
+constinit std::atomic<int> first_signal{0};
+constinit std::atomic<int> policy_now{static_cast<int>(OnSignal::exit_at_once)};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+
+extern "C" void on_signal(int number) {
+    const bool first = first_signal.exchange(number) == 0;
+    stop.store(true);
+    if (first && policy_now.load() == static_cast<int>(OnSignal::ask_to_stop)) return;
+    remove_pending_outputs();
+    _exit(static_cast<int>(ExitCode::signal_base) + number);
+}
+
+void fill_closed_stream(int fd, int flags) {
+    if (::fcntl(fd, F_GETFD) != -1) return;
+    // The lowest free number is what open() returns: 0, 1 and 2 are asked for in this order.
+    (void)::open("/dev/null", flags);
+}
+
+}  // namespace
+
+void install_signal_handlers() {
+    fill_closed_stream(0, O_RDONLY);
+    fill_closed_stream(1, O_WRONLY);
+    fill_closed_stream(2, O_WRONLY);
+    struct sigaction action {};
+    action.sa_handler = SIG_IGN;
+    ::sigaction(SIGPIPE, &action, nullptr);
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    ::sigemptyset(&action.sa_mask);
+    for (const int number : {SIGINT, SIGTERM}) {
+        // A parent that ignores the signal (nohup, a shell's background job) means it.
+        struct sigaction before {};
+        ::sigaction(number, nullptr, &before);
+        if (before.sa_handler != SIG_IGN) ::sigaction(number, &action, nullptr);
+    }
+}
+
+void set_signal_policy(OnSignal policy) noexcept {
+    policy_now.store(static_cast<int>(policy));
+}
+
+const std::atomic<bool>& stop_requested() noexcept {
+    return stop;
+}
+
+int received_signal() noexcept {
+    return first_signal.load();
+}
+
+void stop_if_requested() {
+    if (stop.load()) throw Interrupted(received_signal());
+}
+
+}  // namespace obscura

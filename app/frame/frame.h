@@ -1,0 +1,95 @@
+#pragma once
+// A rendered frame: linear radiance, further channels (AOVs), and what it took.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/frame/light_shadow_stats.h"
+#include "core/buffer.h"
+#include "core/image.h"
+#include "core/vec.h"
+#include "raster/layers.h"
+
+namespace obscura {
+
+struct FrameOptions {
+    Region crop;  ///< pixels of the whole picture; empty (width or height 0) = all of it
+    bool depth = false, normal = false, albedo = false, object = false, shadow = false;  ///< AOVs wanted
+    bool shift = false;  ///< of eyes: Frame::shift_px
+    /// Share of the work done, tiles and the lens's pattern, rising to 1; called from any thread, one call at
+    /// a time, some hundred times.
+    std::function<void(double)> progress;
+    const std::atomic<bool>* cancel = nullptr;  ///< set it and the remaining tiles, of shadow
+                                                ///< maps too, are left out
+};
+
+/// Glare of a frame whose scene has a lens.
+struct GlareStats {
+    double total_s = 0;                   ///< all of it, the next included
+    double psf_s = 0;                     ///< the lens's patterns; 0 when kept
+    bool kept = false;                    ///< patterns of an earlier frame served
+    bool fft = false;                     ///< else splats
+    std::int64_t sources = 0;             ///< pixels that clipped
+    int kernels = 0;                      ///< patterns: of the open lens, and of sources with their own
+    std::int64_t own_kernel_sources = 0;  ///< pixels that see the lens partly hidden, or are out of focus
+    int wavelengths = 0;
+    double cycles_per_px = 0;     ///< cycles of the pupil's diameter, at the mean wavelength
+    double captured = 0;          ///< share of the light that the kernel's square catches
+    double spread = 0, lost = 0;  ///< shares of the sources' light: left its pixel, left the picture
+    double blocked = 0;           ///< share that what stands before the lens keeps from it
+    std::string reason;
+};
+
+/// Wall-clock seconds per stage, and exact counts.
+struct FrameStats {
+    double surface_s = 0;     ///< table of surface triangles; 0 when kept
+    double shadow_s = 0;      ///< shadow maps, the next two included; near 0 when kept
+    double resolution_s = 0;  ///< of these, finding resolutions
+    double needed_s = 0;      ///< and finding what the picture looks up (scope "frame")
+    double setup_s = 0;       ///< triangle setup and bins of the camera
+    double tiles_s = 0;       ///< visibility, surface, shadow lookups, shading, resolve
+    double total_s = 0;
+    std::int64_t triangles = 0;            ///< in the scene
+    std::int64_t records = 0;              ///< triangles that reach a sample of the picture, after clipping
+    std::int64_t bin_items = 0;            ///< triangle-tile pairs
+    std::int64_t samples = 0;              ///< taken
+    std::int64_t covered_samples = 0;      ///< of these, on a surface
+    std::int64_t shadow_maps = 0;          ///< views rendered for this frame, not kept ones
+    std::int64_t shadow_bytes = 0;         ///< all maps
+    std::int64_t bytes = 0;                ///< estimate_memory(), checked before the work
+    std::vector<LightShadowStats> lights;  ///< of the lights with shadows, in scene order
+    std::optional<GlareStats> glare;       ///< none: the scene has no lens
+    std::vector<std::string> notices;      ///< what happened that one would want to know: caches made again
+};
+
+constexpr std::uint32_t no_object = 0xffffffffu;
+
+/// Pixels of the crop; channels that were not wanted are empty.
+struct Frame {
+    int x0 = 0, y0 = 0;  ///< the crop's corner in the whole picture
+    int width = 0, height = 0;
+    Raster<Vec3f> radiance;  ///< linear, W / (m^2 sr): the mean of the pixel's samples
+    // Of sample 0 (which for one sample is the pixel's centre):
+    Image<float> depth_m;         ///< metres along the view axis; infinity where nothing is
+    Image<Vec3f> normal;          ///< world space, unit, towards the viewer; 0 where nothing is
+    Image<std::uint32_t> object;  ///< index into Mesh::objects; no_object where nothing is
+    /// How many pixels further right the scene's camera sees what an eye does; 0 where nothing is.
+    Image<float> shift_px;
+    // Means of the pixel's samples:
+    Image<Vec3f> albedo;  ///< base colour times texture, linear; 0 where nothing is
+    Image<float> shadow;  ///< visibility, averaged over the lights with shadows; surfaces that face away
+                          ///< count 0; 1 where nothing is, or without such lights
+    Vec3d
+        lens_offset_m;  ///< where the picture's lens is, from the camera's eye: that of the eye that sees it
+    bool complete = false;  ///< false: cancelled
+    FrameStats stats;
+    double shift_at(int x, int y) const {
+        return shift_px.width > 0 ? static_cast<double>(shift_px(x, y)) : 0.0;
+    }
+};
+
+}  // namespace obscura

@@ -1,0 +1,48 @@
+#pragma once
+// The shadows of one light, ready for lookups: a dense map, or a tree per view.
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "app/frame/light_shadow_stats.h"
+#include "core/isa.h"
+#include "core/scene.h"
+#include "hierarchy/needed_nodes.h"
+#include "hierarchy/shadow_tree.h"
+#include "raster/shadow_map.h"
+
+namespace obscura {
+
+struct LightShadow {
+    Light light;    ///< what it was made for; its resolution as found
+    Camera camera;  ///< and for this picture, when scope is "frame"
+    RenderSettings render;
+    Bounds casters;  ///< caster_box() for the light's direction, when it is parallel
+    ShadowMap map;
+    std::vector<ShadowTree> trees;
+    LightShadowStats stats;
+
+    bool empty() const { return map.views.empty() && trees.empty(); }
+    const LightView& view(int i) const {
+        const auto at = static_cast<std::size_t>(i);
+        return trees.empty() ? map.views[at] : trees[at].view;
+    }
+};
+
+/// Whether what was made for `a` serves `b`, which differ in colour at most.
+bool same_shadow(const Light& a, const Light& b);
+/// Whether lookups of one picture are those of the other.
+bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render);
+
+/// Builds and serialises the trees of shadow.light (its resolution a number), of which `needed` says what of
+/// each view is wanted (null: everything). Fills shadow.trees and its statistics. `most_bytes`: what trees
+/// may take while they are made; construction stops with LimitError before it takes more. False when `cancel`
+/// was set meanwhile: there are then no trees.
+bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed, const Exec& exec,
+                       std::int64_t most_bytes, LightShadow& shadow, const std::atomic<bool>* cancel);
+
+/// Counts and bytes of shadow.trees into its statistics.
+void count_trees(LightShadow& shadow);
+
+}  // namespace obscura

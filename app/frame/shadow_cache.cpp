@@ -1,0 +1,123 @@
+#include "app/frame/shadow_cache.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include "core/error.h"
+#include "core/file_output.h"
+#include "core/hash.h"
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Changes when the same inputs give other trees.
+constexpr std::uint32_t construction_version = 1;
+
+/// Two halves of a key; large arrays enter both by one hash of 64 bits.
+class KeyHasher {
+  public:
+    template <class T>
+    void add(const T& value) {
+        key_.value(value);
+        other_.value(value);
+    }
+    template <class T>
+    void add_all(const std::vector<T>& values) {
+        const std::uint64_t hash = bulk_hash(values.data(), values.size() * sizeof(T));
+        add(hash);
+        add(static_cast<std::uint64_t>(values.size()));
+    }
+    TreeFileKey key() const { return {other_.state, key_.state}; }
+
+  private:
+    Hasher key_, other_{0x9e3779b97f4a7c15u};
+};
+
+}  // namespace
+
+fs::path shadow_cache_folder(const FileAccess& access, const std::string& cache) {
+    fs::path folder;
+    try {
+        folder = resolve_input(access, cache);
+    } catch (const MissingFile&) {
+        // Inside what is allowed, but not there yet.
+        return fs::weakly_canonical((access.root.empty() ? fs::path(".") : access.root) / cache);
+    }
+    if (!fs::is_directory(folder)) throw InputError(cache, "the shadow cache is not a folder");
+    return folder;
+}
+
+TreeFileKey geometry_key(const Mesh& mesh) {
+    KeyHasher hasher;
+    hasher.add_all(mesh.positions);
+    hasher.add_all(mesh.triangles);
+    hasher.add_all(mesh.face);
+    hasher.add_all(mesh.component);
+    std::vector<std::uint8_t> closed, casts;
+    for (const Component& c : mesh.components)
+        closed.push_back(c.closed ? 1 : 0);
+    for (const std::uint32_t object : mesh.object)
+        casts.push_back(mesh.objects.empty() || mesh.objects[object].casts_shadow ? 1 : 0);
+    hasher.add_all(closed);
+    hasher.add_all(casts);
+    return hasher.key();
+}
+
+TreeFileKey shadow_key(const TreeFileKey& geometry, const Light& light, const std::vector<LightView>& views) {
+    KeyHasher hasher;
+    hasher.add(construction_version);
+    hasher.add(geometry.high);
+    hasher.add(geometry.low);
+    for (const LightView& view : views) {
+        hasher.add(view.to_map);
+        hasher.add(view.width);
+        hasher.add(view.near_w);
+        hasher.add(view.perspective);
+    }
+    hasher.add(light.shadow.receivers);
+    hasher.add(light.shadow.layout);
+    hasher.add(light.shadow.top_levels);
+    return hasher.key();
+}
+
+std::vector<ShadowTree> load_shadow_cache(const fs::path& file, const TreeFileKey& key, std::string& notice) {
+    const auto read = [&] {
+        try {
+            return read_cached_trees(file, key);
+        } catch (const InputError& error) {
+            throw InputError(error.file, error.message + "; when it is deleted, a new one is made");
+        }
+    };
+    CachedTrees cached = read();
+    notice.clear();
+    switch (cached.state) {
+        case CacheState::usable:
+            return std::move(cached.trees);
+        case CacheState::absent:
+            break;
+        case CacheState::other_key:
+            notice = fmt::format("{} was made from another scene, light or settings; it is made again",
+                                 file.string());
+            break;
+        case CacheState::other_version:
+            notice = fmt::format("{} is of another version of the program; it is made again", file.string());
+            break;
+    }
+    return {};
+}
+
+void open_shadow_cache(const fs::path& file) {
+    const fs::path folder = file.parent_path();
+    std::error_code error;
+    fs::create_directory(folder, error);
+    if (error) {
+        throw OutputError(
+            fmt::format("{}: cannot make the shadow cache: {}", folder.string(), error.message()));
+    }
+    check_writable(file, Existing::replace);
+}
+
+}  // namespace obscura

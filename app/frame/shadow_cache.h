@@ -1,0 +1,36 @@
+#pragma once
+// [shadow] cache: finished trees of scope "full" in files, one per light.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/scene/file_access.h"
+#include "core/scene.h"
+#include "hierarchy/shadow_tree.h"
+#include "hierarchy/tree_file.h"
+
+namespace obscura {
+
+/// The folder that light.shadow.cache names, canonical, whether it is there or not. What counts is where it
+/// leads: inside the scene's folder or an allowed one, as for every file that a scene names. Throws
+/// InputError when it leads elsewhere or when something else than a folder is there.
+std::filesystem::path shadow_cache_folder(const FileAccess& access, const std::string& cache);
+
+/// A hash of everything of a mesh that shadows depend on: positions, triangles, what casts, which components
+/// are closed.
+TreeFileKey geometry_key(const Mesh& mesh);
+
+/// What a light's trees are made from: geometry, views, and the settings that reach the trees.
+TreeFileKey shadow_key(const TreeFileKey& geometry, const Light& light, const std::vector<LightView>& views);
+
+/// Trees of an earlier run, or none. `notice`: why a file that is there could not be used, empty otherwise.
+/// Throws InputError when the file is broken: cut short, altered, not of this kind.
+std::vector<ShadowTree> load_shadow_cache(const std::filesystem::path& file, const TreeFileKey& key,
+                                          std::string& notice);
+
+/// Makes the folder if need be and sees that `file` can be written, before anything is built for it. Throws
+/// OutputError.
+void open_shadow_cache(const std::filesystem::path& file);
+
+}  // namespace obscura

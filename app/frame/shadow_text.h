@@ -1,0 +1,26 @@
+#pragma once
+// Shadows in words, for `render -v` and `check`.
+
+#include <string>
+
+#include "app/frame/light_shadow_stats.h"
+#include "core/scene.h"
+
+namespace obscura {
+
+/// "10.0 KiB".
+std::string size_text(std::int64_t bytes);
+
+/// "auto: 8192 x 8192, a texel spans at most 0.83 pixels, at (12, 480)".
+std::string resolution_text(const FoundResolution& found);
+
+/// The note on a light whose resolution is the largest there is and still too coarse for the picture.
+std::string capped_text(const Light& light, const FoundResolution& found);
+
+/// What would make a tree of these settings smaller: the advice of the error when memory does not suffice.
+std::string smaller_tree_text(const ShadowSettings& shadow);
+
+/// What `render -v` tells of one light: some indented lines.
+std::string shadow_text(const LightShadowStats& stats);
+
+}  // namespace obscura

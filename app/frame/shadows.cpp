@@ -1,0 +1,268 @@
+#include "app/frame/shadows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/frame/needed_texels.h"
+#include "app/frame/shadow_cache.h"
+#include "app/frame/shadow_resolution.h"
+#include "app/frame/shadow_text.h"
+#include "core/file_output.h"
+#include "core/stopwatch.h"
+#include "filters/shadow_lookup.h"
+#include "raster/lighting.h"
+
+namespace obscura {
+namespace {
+
+/// Everything the steps below share.
+struct Work {
+    const Scene& scene;
+    std::int64_t most_bytes;  ///< for all shadows together
+    const Exec& exec;
+    FrameCache& cache;
+    std::span<TileScene> pictures;
+    FrameStats& stats;
+    const std::atomic<bool>* cancel;
+};
+
+bool is_parallel(const Light& light) {
+    return light.kind == LightKind::directional || light.kind == LightKind::sun;
+}
+
+bool wants_auto(const Light& light) {
+    return light.shadow.method == ShadowMethod::compressed && light.shadow.resolution == auto_resolution;
+}
+
+Bounds casters_of(const Scene& scene, const Light& light) {
+    return is_parallel(light) ? caster_box(scene.mesh, light.direction) : Bounds{};
+}
+
+LightShadowStats fresh_stats(const Light& light, const std::optional<FoundResolution>& found) {
+    LightShadowStats stats;
+    stats.light = light.id;
+    stats.method = light.shadow.method;
+    stats.resolution = light.shadow.resolution;
+    stats.views = light.kind == LightKind::point ? 6 : 1;
+    stats.found = found;
+    if (light.shadow.method == ShadowMethod::compressed) stats.scope = light.shadow.scope;
+    return stats;
+}
+
+bool same_view(const LightView& a, const LightView& b) {
+    return a.to_map == b.to_map && a.width == b.width && a.height == b.height &&
+           a.perspective == b.perspective && a.near_w == b.near_w && a.min_depth == b.min_depth &&
+           a.max_depth == b.max_depth;
+}
+
+/// Reads the shadow from its file. False when there is none that serves. A file with the right key that holds
+/// something else than trees of these views is broken (InputError).
+bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey& key,
+          const std::vector<LightView>& views, LightShadow& shadow) {
+    std::string notice;
+    shadow.trees = load_shadow_cache(file, key, notice);
+    const auto serves = [](const ShadowTree& tree, const LightView& view) {
+        return same_view(tree.view, view);
+    };
+    if (!shadow.trees.empty() &&
+        !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {
+        shadow.trees.clear();
+        throw InputError(file.string(),
+                         "holds shadow trees of other views than its key says; delete it to have it "
+                         "made again");
+    }
+    if (!notice.empty()) work.stats.notices.push_back(notice);
+    if (shadow.trees.empty()) return false;
+    count_trees(shadow);
+    shadow.stats.from_cache = true;
+    return true;
+}
+
+bool build_trees(const Work& work, const std::vector<NeededNodes>* needed, std::int64_t most_bytes,
+                 LightShadow& shadow) {
+    const Light& light = shadow.light;
+    if (light.shadow.cache.empty() || light.shadow.scope != ShadowScope::full) {
+        return build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel);
+    }
+    const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
+    const auto file = folder / (light.id + ".shadowtree");
+    if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
+    const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
+    const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
+    if (load(work, file, key, views, shadow)) return true;
+    open_shadow_cache(file);
+    if (!build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel)) return false;
+    write_tree_file(file, shadow.trees, key);
+    return true;
+}
+
+bool build_map(const Work& work, LightShadow& shadow) {
+    FrameCache& cache = work.cache;
+    const Stopwatch watch;
+    if (!build_shadow_map(work.scene.mesh, shadow.light, cache.bounds, work.exec, cache.light_scratch,
+                          shadow.map, work.cancel)) {
+        return false;
+    }
+    shadow.stats.bytes = static_cast<std::uint64_t>(dense_map_bytes(shadow.light));
+    shadow.stats.build.build_s = watch.seconds();
+    return true;
+}
+
+/// Settles what each light's shadow shall be; those that an earlier frame made are marked kept.
+void plan_shadows(const Work& work) {
+    const auto found = auto_resolutions(work.scene, work.pictures, work.exec);
+    std::vector<LightShadow>& shadows = work.cache.shadows;
+    std::size_t used = 0;
+    for (std::size_t i = 0; i < work.scene.lights.size(); ++i) {
+        Light light = work.scene.lights[i];
+        if (!casts_shadows(light)) continue;
+        if (found[i]) light.shadow.resolution = found[i]->resolution;
+        if (used == shadows.size()) shadows.emplace_back();
+        LightShadow& shadow = shadows[used++];
+        if (found[i] && found[i]->capped && !(shadow.stats.found && shadow.stats.found->capped)) {
+            work.stats.notices.push_back(capped_text(light, *found[i]));
+        }
+        const LightShadowStats fresh = fresh_stats(light, found[i]);
+        const bool every_picture =
+            light.shadow.method == ShadowMethod::map || light.shadow.scope == ShadowScope::full;
+        const bool kept = !shadow.empty() && same_shadow(shadow.light, light) &&
+                          (every_picture || same_picture(shadow, work.scene.camera, work.scene.render));
+        if (kept) {
+            shadow.stats.kept = true;
+            shadow.stats.found = found[i];
+            shadow.stats.lookup_s = 0;
+        } else {
+            shadow.trees.clear();
+            shadow.stats = fresh;
+            if (light.shadow.method == ShadowMethod::map) {
+                shadow.map.views.clear();  // not valid until it is built; its memory is used again
+            } else {
+                shadow.map = {};
+                shadow.casters = casters_of(work.scene, light);
+            }
+        }
+        shadow.light = light;
+        shadow.camera = work.scene.camera;
+        shadow.render = work.scene.render;
+    }
+    shadows.resize(used);
+}
+
+/// What the picture reads of those shadows that are built for it alone, in their order.
+std::vector<std::optional<std::vector<NeededNodes>>> needed_of_frame(const Work& work) {
+    std::vector<PcfLight> lights;
+    for (const LightShadow& s : work.cache.shadows) {
+        if (s.stats.kept || s.light.shadow.method != ShadowMethod::compressed ||
+            s.light.shadow.scope != ShadowScope::frame) {
+            continue;
+        }
+        const auto views = fitted_shadow_views(s.light, s.casters, s.light.shadow.resolution);
+        lights.push_back(pcf_light(s.light, views, work.scene.camera.eye));
+        if (s.light.shadow.filter == ShadowFilter::hierarchical) {
+            filter_hierarchically(lights.back(), work.pictures[0].rays);
+        }
+    }
+    if (lights.empty()) return {};
+    return needed_texels(work.pictures, lights, work.exec);
+}
+
+/// Makes one shadow that is not kept. `next_needed`: the next entry of `needed` that belongs to a shadow.
+bool build_shadow(const Work& work, const std::vector<std::optional<std::vector<NeededNodes>>>& needed,
+                  std::size_t& next_needed, std::int64_t most_bytes, LightShadow& shadow) {
+    if (shadow.light.shadow.method == ShadowMethod::map) return build_map(work, shadow);
+    if (shadow.light.shadow.scope == ShadowScope::full) return build_trees(work, nullptr, most_bytes, shadow);
+    const auto& of_light = needed[next_needed++];
+    if (!of_light) {
+        shadow.stats.scope = ShadowScope::full;
+        work.stats.notices.push_back(
+            fmt::format("light '{}': the picture reads so much of the shadow map that all of it is built",
+                        shadow.light.id));
+        return build_trees(work, nullptr, most_bytes, shadow);
+    }
+    for (const NeededNodes& view : *of_light)
+        shadow.stats.needed += static_cast<std::int64_t>(view.all().size());
+    return build_trees(work, &*of_light, most_bytes, shadow);
+}
+
+bool build_shadows(const Work& work) {
+    const Stopwatch watch;
+    const auto needed = needed_of_frame(work);
+    work.stats.needed_s = watch.seconds();
+    std::size_t next_needed = 0;
+    std::int64_t bytes = 0;
+    for (LightShadow& shadow : work.cache.shadows) {
+        if (!shadow.stats.kept) {
+            if (!build_shadow(work, needed, next_needed, work.most_bytes - bytes, shadow)) {
+                shadow = {};
+                return false;
+            }
+            work.stats.shadow_maps += shadow.stats.from_cache ? 0 : shadow.stats.views;
+        }
+        bytes += static_cast<std::int64_t>(shadow.stats.bytes);
+    }
+    work.stats.shadow_bytes += bytes;
+    return true;
+}
+
+void give_to_tiles(const Work& work, TileScene& tiles) {
+    std::size_t next = 0;
+    for (TileLight& light : tiles.lights) {
+        if (!casts_shadows(work.scene.lights[light.scene_light])) continue;
+        const LightShadow& shadow = work.cache.shadows[next++];
+        if (shadow.light.shadow.method == ShadowMethod::map) {
+            light.pcf = pcf_light(shadow.light, shadow.map, work.scene.camera.eye);
+            continue;
+        }
+        light.pcf = pcf_light(shadow.light, std::span(shadow.trees), work.scene.camera.eye);
+        if (shadow.light.shadow.filter == ShadowFilter::hierarchical) {
+            filter_hierarchically(*light.pcf, tiles.rays);
+        }
+    }
+}
+
+}  // namespace
+
+bool casts_shadows(const Light& light) {
+    return sheds_light(light) && light.shadow.method != ShadowMethod::none;
+}
+
+std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
+                                                             std::span<const TileScene> pictures,
+                                                             const Exec& exec) {
+    std::vector<ResolutionQuery> queries;
+    for (const Light& light : scene.lights) {
+        if (casts_shadows(light) && wants_auto(light)) queries.push_back({&light, casters_of(scene, light)});
+    }
+    std::vector<std::optional<FoundResolution>> found(scene.lights.size());
+    if (queries.empty()) return found;
+    const auto answers = find_resolutions(pictures, scene.camera.eye, queries, exec);
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        found[static_cast<std::size_t>(queries[i].light - scene.lights.data())] = answers[i];
+    return found;
+}
+
+bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
+                     std::span<TileScene> pictures, FrameStats& stats, const std::atomic<bool>* cancel) {
+    // A scene without geometry has nothing to cast or to receive.
+    if (cache.bounds.empty()) return true;
+    const Stopwatch watch;
+    const Work work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats,
+                    cancel};
+    plan_shadows(work);
+    stats.resolution_s = watch.seconds();
+    if (!build_shadows(work)) return false;
+    for (TileScene& tiles : pictures)
+        give_to_tiles(work, tiles);
+    stats.shadow_s = watch.seconds();
+    return true;
+}
+
+void forget_picture_shadows(FrameCache& cache) {
+    for (LightShadow& shadow : cache.shadows) {
+        const ShadowSettings& s = shadow.light.shadow;
+        if (s.method == ShadowMethod::compressed && s.scope == ShadowScope::frame) shadow.trees.clear();
+    }
+}
+
+}  // namespace obscura

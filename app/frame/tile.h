@@ -1,0 +1,109 @@
+#pragma once
+// One 64 x 64 tile of a frame, stage by stage: visibility, surface, textures, shadow lookups, shading,
+// resolve. Between the stages lie plain buffers, so that a test, a lesson or a trace can stop there.
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/frame/frame.h"
+#include "core/scene.h"
+#include "filters/pcf.h"
+#include "raster/depth_map.h"
+#include "raster/gbuffer.h"
+#include "raster/sample_pattern.h"
+#include "raster/shade.h"
+
+namespace obscura {
+
+/// A light that shines on this frame.
+struct TileLight {
+    ShadeLight shade;
+    std::optional<PcfLight> pcf;  ///< none: casts no shadows
+    std::size_t scene_light = 0;  ///< index into Scene::lights
+};
+
+/// Everything the tiles of one frame have in common. Borrows; read only.
+struct TileScene {
+    const TriangleSetup* setup = nullptr;
+    const TileBins* bins = nullptr;
+    const Mesh* mesh = nullptr;
+    View view;
+    CameraRays rays;
+    SurfaceMesh surface;
+    std::vector<ShadeMaterial> materials;
+    std::span<const Texture> textures;
+    std::vector<TileLight> lights;
+    ShadeSky sky;
+    std::span<const SamplePosition> pattern;
+    bool textured = false;  ///< some material has a texture
+};
+
+/// Working memory of one tile: about 140 KiB, not initialised but for the last.
+struct TileWork {
+    alignas(64) float depth[frame_tile_side * frame_tile_side];
+    alignas(64) std::uint32_t triangle[frame_tile_side * frame_tile_side];
+    SurfaceBlock surface;
+    ShadeBlock shade;
+    alignas(64) float visibility[block_samples];
+    alignas(64) float shadow_sum[block_samples];
+    alignas(64) float r[frame_tile_side * frame_tile_side];
+    alignas(64) float g[frame_tile_side * frame_tile_side];
+    alignas(64) float b[frame_tile_side * frame_tile_side];
+    std::span<double> lookup_s;  ///< seconds in shadow lookups are added here, per light; empty: not measured
+};
+
+/// Stage 1: nearest triangle of one sample of every pixel of tile (column, row).
+TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosition sample, Isa isa,
+                         TileWork& work);
+
+/// Stage 2: surfaces of the block of rows from first_row on.
+void block_geometry(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work);
+
+/// Stages 2 and 3: surfaces and texels of the block of rows from first_row on.
+void block_surface(const TileScene& scene, const TileRect& tile, int first_row, Isa isa, TileWork& work);
+
+/// Samples of the block beyond its first `width` columns and `rows` rows count as not covered.
+void uncover_outside(int width, int rows, SurfaceBlock& surface);
+
+/// Stages 1 and 2 of tile `index` for one sample of every pixel; calls visit(tile, first_row) with the
+/// surfaces of each block of rows in work.surface. Samples outside of the picture count as not covered.
+template <class Visit>
+void walk_blocks(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
+                 Visit&& visit) {
+    const int columns = scene.bins->columns;
+    const auto i = static_cast<int>(index);
+    const Region inside = scene.bins->inside(index);
+    const TileRect tile = tile_visibility(scene, i % columns, i / columns, sample, isa, work);
+    for (int first_row = 0; first_row < inside.height; first_row += block_rows) {
+        block_geometry(scene, tile, first_row, isa, work);
+        uncover_outside(inside.width, inside.height - first_row, work.surface);
+        visit(tile, first_row);
+    }
+}
+
+/// The same, sample by sample: calls visit(x, y, at) for each pixel of the picture whose sample is on a
+/// surface: sample `at` of work.surface.
+template <class Visit>
+void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
+               Visit&& visit) {
+    walk_blocks(scene, index, sample, isa, work, [&](const TileRect& tile, int first_row) {
+        for (int group = 0; group < block_groups; ++group) {
+            for (std::uint32_t left = work.surface.covered[group]; left != 0; left &= left - 1) {
+                const int at = group * 16 + std::countr_zero(left);
+                visit(tile.x0 + at % frame_tile_side, tile.y0 + first_row + at / frame_tile_side, at);
+            }
+        }
+    });
+}
+
+/// Stages 4 and 5: shadow lookups and shading. `shadow`: also sum visibilities into work.shadow_sum.
+void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work);
+
+/// All stages; writes the tile's pixels into `frame`. Returns the number of covered samples.
+std::int64_t render_tile(const TileScene& scene, int column, int row, const FrameOptions& options, Isa isa,
+                         TileWork& work, Frame& frame);
+
+}  // namespace obscura

@@ -1,0 +1,89 @@
+#include "app/frame/tiles.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/parallel.h"
+
+namespace obscura {
+namespace {
+
+/// One channel: as large as the frame when wanted, else empty.
+template <class T>
+void set_channel(Image<T>& channel, bool wanted, const Frame& frame) {
+    channel = wanted ? Image<T>(frame.width, frame.height) : Image<T>();
+}
+
+/// Tells `progress` about once per half percent, one call at a time.
+class ProgressMeter {
+  public:
+    ProgressMeter(const std::function<void(double)>& progress, std::size_t tiles)
+        : progress_(progress), tiles_(tiles), step_(std::max<std::size_t>(tiles / 200, 1)) {}
+    void tile_done() {
+        if (!progress_) return;
+        const std::lock_guard lock(mutex_);
+        ++done_;
+        if (done_ % step_ == 0 || done_ == tiles_) {
+            progress_(static_cast<double>(done_) / static_cast<double>(tiles_));
+        }
+    }
+
+  private:
+    const std::function<void(double)>& progress_;
+    std::size_t tiles_, step_, done_ = 0;
+    std::mutex mutex_;
+};
+
+}  // namespace
+
+void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
+    frame.x0 = crop.x0;
+    frame.y0 = crop.y0;
+    frame.width = crop.width;
+    frame.height = crop.height;
+    frame.radiance.reset(crop.width, crop.height);
+    set_channel(frame.depth_m, options.depth, frame);
+    set_channel(frame.normal, options.normal, frame);
+    set_channel(frame.albedo, options.albedo, frame);
+    set_channel(frame.object, options.object, frame);
+    set_channel(frame.shift_px, options.shift, frame);
+    set_channel(frame.shadow, options.shadow, frame);
+}
+
+void render_tiles(const TileScene& scene, const FrameOptions& options, const Exec& exec, Frame& frame) {
+    const int column0 = frame.x0 / frame_tile_side, row0 = frame.y0 / frame_tile_side;
+    const int columns = (frame.x0 + frame.width - 1) / frame_tile_side - column0 + 1;
+    const int rows = (frame.y0 + frame.height - 1) / frame_tile_side - row0 + 1;
+    const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+    ProgressMeter meter(options.progress, tiles);
+    std::vector<std::int64_t> covered(tiles, 0);
+    const std::size_t lights = scene.lights.size();
+    std::vector<double> lookup_s(tiles * lights, 0.0);
+    std::atomic<bool> skipped = false;
+    parallel_for(tiles, exec, [&](std::size_t i) {
+        if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
+            skipped = true;
+            return;
+        }
+        TileWork work;  // not initialised: every stage writes what the next one reads
+        work.lookup_s = std::span(lookup_s).subspan(i * lights, lights);
+        const int column = column0 + static_cast<int>(i) % columns,
+                  row = row0 + static_cast<int>(i) / columns;
+        covered[i] = render_tile(scene, column, row, options, exec.isa, work, frame);
+        meter.tile_done();
+    });
+    frame.complete = !skipped;
+    for (const std::int64_t n : covered)
+        frame.stats.covered_samples += n;
+    std::size_t shadow = 0;
+    for (std::size_t l = 0; l < lights; ++l) {
+        if (!scene.lights[l].pcf) continue;
+        double& sum = frame.stats.lights[shadow++].lookup_s;
+        for (std::size_t i = 0; i < tiles; ++i)
+            sum += lookup_s[i * lights + l];
+    }
+    frame.stats.samples = static_cast<std::int64_t>(tiles) * frame_tile_side * frame_tile_side *
+                          static_cast<std::int64_t>(scene.pattern.size());
+}
+
+}  // namespace obscura

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "core/scene.h"
+
+namespace obscura {
+
+/// What `obscura check` tells: the lens, the kernel, the cost; lines begin with a word of ten columns.
+std::string lens_text(const OpticsSettings& optics, const RenderSettings& render);
+
+}  // namespace obscura

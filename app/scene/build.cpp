@@ -1,0 +1,258 @@
+// Meshes, materials and textures: whatever is the same in all frames.
+
+#include "app/scene/build.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "app/scene/aperture_file.h"
+#include "app/scene/keyframes.h"
+#include "app/scene/mesh_transform.h"
+#include "app/scene/obj_file.h"
+#include "app/scene/schema.h"
+#include "app/scene/shapes.h"
+#include "app/scene/validate.h"
+#include "core/color.h"
+#include "core/error.h"
+#include "core/image_io.h"
+#include "core/texture.h"
+#include "core/topology.h"
+
+namespace obscura {
+namespace {
+
+constexpr std::int64_t largest_texture_file = std::int64_t{1} << 30;
+constexpr float farthest_m = 1e9f;
+
+struct Builder {
+    const SceneDocument& document;
+    const FileAccess& access;
+    Limits limits;
+    Scene scene;
+    std::map<std::filesystem::path, std::int32_t> textures;       // decoded so far
+    std::map<std::string, std::uint32_t, std::less<>> materials;  // of the document, by name
+    std::int64_t texture_memory = 0;
+};
+
+/// Index of a texture, which is decoded when it is met for the first time.
+std::int32_t texture_index(Builder& b, const std::filesystem::path& file, const std::string& shown_name) {
+    if (const auto known = b.textures.find(file); known != b.textures.end()) return known->second;
+    const std::string bytes = read_file(file, largest_texture_file);
+    ImageFileLimits limits;
+    limits.max_side_px = b.limits.texture_px;
+    // A pixel has 4 bytes in the file's image, and 16 as linear floats with their mip chain.
+    limits.max_bytes = ((b.limits.texture_mib << 20) - b.texture_memory) / 4;
+    const Image<Rgba8> image = decode_png(bytes, shown_name, limits);
+    b.texture_memory += texture_bytes(image.width, image.height);
+    b.scene.textures.push_back(make_texture(shown_name, image.view()));
+    const auto index = static_cast<std::int32_t>(b.scene.textures.size()) - 1;
+    b.textures.emplace(file, index);
+    return index;
+}
+
+/// Runs `load` for a file that the scene names; errors about the file as such point to where it is named.
+template <class Load>
+auto load_named(const Builder& b, const SceneTable& table, const char* key, Load&& load) {
+    std::filesystem::path path;
+    try {
+        path = resolve_input(b.access, text(table, key));
+    } catch (const InputError& error) {
+        fail_at(place_of(table, key), b.document.sources,
+                fmt::format("'{}': {}", text(table, key), error.message));
+    }
+    return load(path);
+}
+
+Material material_of(Builder& b, const std::string& name, const SceneTable& table) {
+    Material m;
+    m.name = name;
+    Vec3d color = vec3(table, "base_color");
+    if (text(table, "color_space") == "srgb") {
+        color = {srgb_decode(color.x), srgb_decode(color.y), srgb_decode(color.z)};
+    }
+    m.base_color = to_float(color);
+    m.roughness = static_cast<float>(number(table, "roughness"));
+    m.metallic = static_cast<float>(number(table, "metallic"));
+    m.emission = to_float(vec3(table, "emission_w_m2_sr"));
+    m.translucency = static_cast<float>(number(table, "translucency"));
+    if (table.has("texture")) {
+        m.texture = load_named(b, table, "texture", [&](const std::filesystem::path& path) {
+            return texture_index(b, path, text(table, "texture"));
+        });
+    }
+    return m;
+}
+
+void add_materials(Builder& b) {
+    if (!b.document.root.has("material")) return;
+    for (const SceneEntry& entry : subtable(b.document.root, "material").entries) {
+        b.materials.emplace(entry.key, static_cast<std::uint32_t>(b.scene.materials.size()));
+        b.scene.materials.push_back(material_of(b, entry.key, std::get<SceneTable>(entry.value.data)));
+    }
+}
+
+/// A mesh before it is placed; its material ids index `materials`, whose textures are the scene's already.
+struct Part {
+    Mesh mesh;
+    std::vector<Material> materials;
+};
+
+Part load_part(Builder& b, const SceneTable& table) {
+    return load_named(b, table, "file", [&](const std::filesystem::path& path) {
+        ObjOptions options;
+        options.crease_angle_deg = number(table, "crease_angle_deg");
+        ObjModel model = load_obj(path, b.access, b.limits, options);
+        const bool own_materials = !table.has("material");
+        for (Material& material : model.materials) {
+            if (material.texture < 0 || !own_materials) continue;
+            const std::string& file = model.texture_files.at(static_cast<std::size_t>(material.texture));
+            material.texture = texture_index(b, file, std::filesystem::path(file).filename().string());
+        }
+        return Part{std::move(model.mesh), std::move(model.materials)};
+    });
+}
+
+Part make_part(const SceneTable& table) {
+    GeneratedModel model = find_shape(text(table, "shape"))->make(table);
+    analyse_topology(model.mesh);
+    return {std::move(model.mesh), std::move(model.materials)};
+}
+
+/// Points the part's triangles at the scene's materials: the mesh's `material` for all, else
+/// `materials.SLOT`, else the part's own, which are added.
+void assign_materials(Builder& b, const SceneTable& table, Part& part) {
+    Mesh& mesh = part.mesh;
+    mesh.material.resize(mesh.triangles.size(), 0);
+    if (part.materials.empty()) part.materials.push_back(Material{.name = "default"});
+    if (table.has("material")) {
+        mesh.material.assign(mesh.triangles.size(), b.materials.find(text(table, "material"))->second);
+        return;
+    }
+    std::vector<std::string> slots;
+    for (const Material& m : part.materials)
+        slots.push_back(m.name);
+    const SceneTable& chosen = subtable(table, "materials");
+    for (const SceneEntry& entry : chosen.entries) {
+        if (std::find(slots.begin(), slots.end(), entry.key) == slots.end()) {
+            fail_at(entry.place, b.document.sources,
+                    fmt::format("mesh '{}' has no material slot '{}'{}; it has: {}", text(table, "id"),
+                                entry.key, hint(entry.key, slots), fmt::join(slots, ", ")));
+        }
+    }
+    std::vector<std::uint32_t> scene_index;
+    for (Material& m : part.materials) {
+        if (chosen.has(m.name)) {
+            scene_index.push_back(b.materials.find(text(chosen, m.name))->second);
+        } else {
+            scene_index.push_back(static_cast<std::uint32_t>(b.scene.materials.size()));
+            m.name = text(table, "id") + "/" + m.name;
+            b.scene.materials.push_back(std::move(m));
+        }
+    }
+    for (std::uint32_t& m : mesh.material)
+        m = scene_index.at(m);
+}
+
+/// Objects are named after the mesh, and after the file's objects when it has several.
+void name_objects(const SceneTable& table, Mesh& mesh) {
+    const std::string& id = text(table, "id");
+    mesh.object.resize(mesh.triangles.size(), 0);
+    if (mesh.objects.empty()) mesh.objects.emplace_back();
+    for (Object& object : mesh.objects) {
+        object.name = mesh.objects.size() == 1 ? id : id + "/" + object.name;
+        object.casts_shadow = boolean(table, "casts_shadow");
+    }
+}
+
+Affine placement_of(const SceneTable& table) {
+    return placement(vec3(table, "scale"), vec3(table, "rotate_deg"), vec3(table, "translate_m"));
+}
+
+void check_coordinates(const Builder& b, const SceneTable& table, const Mesh& mesh) {
+    for (const Vec3f p : mesh.positions) {
+        if (std::fabs(p.x) <= farthest_m && std::fabs(p.y) <= farthest_m && std::fabs(p.z) <= farthest_m)
+            continue;
+        fail_at(place_of(table, "id"), b.document.sources,
+                fmt::format("mesh '{}' reaches farther than {} m from the origin", text(table, "id"),
+                            farthest_m));
+    }
+}
+
+void add_mesh(Builder& b, const SceneTable& table) {
+    Part part = text(table, "shape") == "file" ? load_part(b, table) : make_part(table);
+    const std::vector<const SceneTable*> instances = subtables(table, "instance");
+    const std::size_t copies = std::max<std::size_t>(1, instances.size());
+    const auto total =
+        static_cast<std::int64_t>(b.scene.mesh.triangles.size() + copies * part.mesh.triangles.size());
+    if (total > b.limits.triangles) {
+        throw LimitError(
+            fmt::format("{}: mesh '{}' brings the scene to {} triangles, more than limits.triangles = {}",
+                        b.document.sources[0], text(table, "id"), total, b.limits.triangles));
+    }
+    assign_materials(b, table, part);
+    name_objects(table, part.mesh);
+    if (boolean(table, "flip_faces")) flip_faces(part.mesh);
+
+    const Affine own = placement_of(table);
+    for (std::size_t i = 0; i < copies; ++i) {
+        Mesh copy = part.mesh;
+        if (!instances.empty()) {
+            for (Object& object : copy.objects)
+                object.name += fmt::format("#{}", i);
+        }
+        transform_mesh(copy, instances.empty() ? own : placement_of(*instances[i]) * own);
+        check_coordinates(b, table, copy);
+        append_mesh(b.scene.mesh, copy);
+    }
+}
+
+/// The lens's mask when it comes from a file, else nothing. Textures' limits hold for it, too.
+Image<float> lens_mask(const Builder& b) {
+    if (!b.document.root.has("optics")) return {};
+    const SceneTable& optics = subtable(b.document.root, "optics");
+    if (text(optics, "aperture") != "file") return {};
+    return load_named(b, optics, "file", [&](const std::filesystem::path& path) {
+        return read_mask(
+            path, text(optics, "file"),
+            {b.limits.texture_px, b.limits.texture_mib << 20, " (limits.texture_mib raises it)"});
+    });
+}
+
+Sky sky_of(const SceneTable& table) {
+    Sky sky;
+    sky.zenith = to_float(vec3(table, "zenith_w_m2_sr"));
+    sky.horizon = to_float(vec3(table, "horizon_w_m2_sr"));
+    sky.ground = to_float(vec3(table, "ground_w_m2_sr"));
+    sky.ambient = static_cast<float>(number(table, "ambient"));
+    sky.visible = boolean(table, "visible");
+    return sky;
+}
+
+Output output_of(const SceneTable& table) {
+    static const std::map<std::string, Aov> aovs = {{"beauty", Aov::beauty}, {"depth", Aov::depth},
+                                                    {"normal", Aov::normal}, {"albedo", Aov::albedo},
+                                                    {"object", Aov::object}, {"shadow", Aov::shadow}};
+    return {aovs.at(text(table, "aov")), text(table, "file")};
+}
+
+}  // namespace
+
+Scene build_scene(const SceneDocument& document, const FileAccess& access) {
+    Builder b{document, access, limits_of(document), {}, {}, {}, 0};
+    b.scene.limits = b.limits;
+    b.scene.render = render_settings_of(document);
+    b.scene.sky = sky_of(subtable(document.root, "sky"));
+    for (const SceneTable* output : subtables(document.root, "output"))
+        b.scene.outputs.push_back(output_of(*output));
+
+    add_materials(b);
+    for (const SceneTable* mesh : subtables(document.root, "mesh"))
+        add_mesh(b, *mesh);
+    b.scene.optics.mask = lens_mask(b);
+    set_frame(b.scene, document, scene_frames(document).first);
+    return std::move(b.scene);
+}
+
+}  // namespace obscura

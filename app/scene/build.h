@@ -1,0 +1,26 @@
+#pragma once
+// From a validated document to what is rendered.
+
+#include "app/scene/file_access.h"
+#include "app/scene/scene_file.h"
+#include "core/scene.h"
+
+namespace obscura {
+
+/// Loads and makes every mesh, places all instances in one world-space mesh, decodes textures, and sets
+/// camera and lights to the first frame. Topology and planar faces are filled. Limits are checked before
+/// allocating where sizes can be known before. Throws InputError, LimitError.
+Scene build_scene(const SceneDocument& document, const FileAccess& access);
+
+/// Sets camera, lens and lights to `frame`; nothing else depends on it. Cheap.
+void set_frame(Scene& scene, const SceneDocument& document, double frame);
+
+/// The parts of a document that need no files.
+Camera camera_of(const SceneTable& camera);
+Light light_of(const SceneTable& light);
+Limits limits_of(const SceneDocument& document);
+RenderSettings render_settings_of(const SceneDocument& document);
+/// The lens at a frame, without the mask of a file; not enabled where the scene has no [optics].
+OpticsSettings optics_of(const SceneDocument& document, double frame);
+
+}  // namespace obscura

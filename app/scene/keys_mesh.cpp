@@ -1,0 +1,70 @@
+// [[mesh]]: the keys all meshes share, and one variant per registered shape.
+
+#include "app/scene/keys.h"
+#include "app/scene/shapes.h"
+
+namespace obscura {
+namespace {
+
+constexpr Range anywhere{-1e9, 1e9};
+
+std::vector<KeySpec> transform_keys() {
+    return {
+        vec3_or_number_key("scale", "Scale along x, y, z, first; a negative one mirrors, 0 is an error.")
+            .in({-1e6, 1e6})
+            .or_else(Vec3d{1, 1, 1}),
+        vec3_key("rotate_deg",
+                 "Then turned about x, then y, then z, counter-clockwise seen from the axis' tip.")
+            .in({-36000, 36000})
+            .or_else(Vec3d{0, 0, 0}),
+        vec3_key("translate_m", "Then moved.").in(anywhere).or_else(Vec3d{0, 0, 0}),
+    };
+}
+
+}  // namespace
+
+const TableSpec& mesh_table() {
+    static const TableSpec instance{
+        "[[mesh.instance]]",
+        "A copy of the mesh, placed by its own transform after the mesh's. Without any there is one copy.",
+        transform_keys(),
+        "",
+        {}};
+    static const TableSpec spec = [] {
+        TableSpec t{"[[mesh]]", "Triangles from a file, or a shape made here.", {}, "shape", {}};
+        std::vector<std::string> names{"file"};
+        t.variants.push_back(
+            {"file",
+             "A Wavefront OBJ with its MTL.",
+             {file_key("file", "OBJ file, relative to the scene file and inside its folder.").need(),
+              number_key("crease_angle_deg",
+                         "Where the file has neither normals nor smoothing groups: smooth across edges "
+                         "that bend less than this. 20 suits buildings, 180 scans.")
+                  .in({0, 180})
+                  .or_else(40.0)}});
+        for (const ShapeSpec& shape : shapes()) {
+            names.push_back(shape.variant.name);
+            t.variants.push_back(shape.variant);
+        }
+        t.keys = {
+            name_key("id", "Name, unique among meshes.").need(),
+            choice_key("shape", names, "What it is made of.").or_else("file"),
+            name_key("material",
+                     "A [material.NAME]; without it, files keep their own materials and shapes get the "
+                     "default one."),
+        };
+        for (KeySpec& key : transform_keys())
+            t.keys.push_back(std::move(key));
+        t.keys.push_back(boolean_key("casts_shadow", "false: light passes through.").or_else(true));
+        t.keys.push_back(boolean_key("flip_faces", "Turns every triangle inside out.").or_else(false));
+        t.keys.push_back(name_map_key(
+            "materials",
+            "Instead of material: a [material.NAME] per slot of the shape or material of the file; "
+            "slots not named keep their own look."));
+        t.keys.push_back(table_list_key("instance", instance));
+        return t;
+    }();
+    return spec;
+}
+
+}  // namespace obscura

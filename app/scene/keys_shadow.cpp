@@ -1,0 +1,76 @@
+// Keys of shadows.
+
+#include "app/scene/keys.h"
+#include "core/scene.h"
+
+namespace obscura {
+
+KeySpec shadow_cache_key() {
+    return file_key(
+               "cache",
+               "Compressed, scope \"full\": folder, relative to the scene file, in which finished maps are "
+               "kept, one file LIGHT.shadowtree per light. It is made when it is not there.")
+        .as_folder();
+}
+
+const TableSpec& shadow_table() {
+    static const ShadowSettings d;
+    static const TableSpec spec{
+        "[shadow.LIGHT]",
+        "How the light with the id LIGHT casts shadows. The same keys may stand in the light itself, as "
+        "`shadow = {...}` or [light.shadow]. `cache` may also stand in [shadow], for all lights.",
+        {
+            choice_key(
+                "method", {"none", "map", "compressed"},
+                "none: the light passes through everything. map: a dense map. compressed: a tree of depth "
+                "intervals, which gives the same shadows at resolutions far beyond.")
+                .or_else("compressed"),
+            integer_key(
+                "resolution",
+                "Texels per side of a map, at most 16384 with method \"map\", whose default is 4096; "
+                "points use six maps. \"auto\", the default otherwise: the smallest that the picture "
+                "needs. The map of a parallel light covers the whole scene; `obscura check` tells the size "
+                "of a texel.")
+                .one_of({16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768, 65536, 131072,
+                         262144, 524288, 1048576})
+                .or_word("auto"),
+            integer_key("filter_px",
+                        "Side of the percentage-closer filter, in texels; with method \"map\" 1, 3 or 5.")
+                .one_of({1, 3, 5, 7, 9, 11, 13, 15})
+                .or_else(std::int64_t{d.filter_px}),
+            number_key("normal_offset_texels", "Bias of receivers on open surfaces; solids need none.")
+                .in({0, 100})
+                .or_else(d.normal_offset_texels),
+            choice_key("receivers", {"any", "static"}, "As in [render], whose value is the default."),
+            choice_key(
+                "scope", {"frame", "full"},
+                "Compressed: build what the frame's pixels look up, or everything, to be kept while only "
+                "the camera moves. \"full\" where there is a cache, else \"frame\"."),
+            choice_key(
+                "filter", {"pcf", "hierarchical"},
+                "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
+                "keeps distant shadows still when the camera moves; what is thinner than a square, as the "
+                "bars of a distant fence, then casts less of a shadow or none. A larger filter_px, whose "
+                "squares are smaller, keeps more of it. \"pcf\" when not given."),
+            number_key(
+                "max_magnification",
+                "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "
+                "across its shorter direction, anywhere in the picture. 1 when not given.")
+                .in({0.01, 100}),
+            choice_key(
+                "layout", {"words24", "words16", "bytes16"},
+                "Compressed: how nodes are written. bytes16 is about a tenth smaller and slower to look up, "
+                "words16 about as large as words24. \"words24\" when not given."),
+            integer_key(
+                "top_levels",
+                "Compressed: how many of the first levels are kept as a table, which saves lookups that "
+                "many steps; 6 when not given.")
+                .in({0, 10}),
+            shadow_cache_key(),
+        },
+        "",
+        {}};
+    return spec;
+}
+
+}  // namespace obscura

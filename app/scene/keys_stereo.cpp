@@ -1,0 +1,306 @@
+// Keys of the two eyes and of the edits to what they see.
+
+#include "app/scene/keys.h"
+#include "stereo/edit.h"
+#include "stereo/moved_mesh.h"
+#include "stereo/range_remap.h"
+#include "stereo/solver.h"
+#include "stereo/stereo_rig.h"
+
+namespace obscura {
+namespace {
+
+constexpr Range anywhere{-1e9, 1e9};
+constexpr Range weight_range{0, 1e6};
+constexpr Range positive_weight{0, 1e6, true};
+
+std::vector<KeySpec> rig_keys() {
+    static const StereoRig d;
+    return {
+        number_key("interaxial_m", "Between the two eyes' cameras.")
+            .in({0, 1e6, true})
+            .or_else(d.interaxial_m)
+            .animate(),
+        number_key("zero_parallax_m",
+                   "Distance along the view axis of what appears on the screen itself; when not given, that "
+                   "of the camera's look_at_m.")
+            .in({0, 1e9, true})
+            .animate(),
+        number_key("screen_width_m", "Of the screen that the picture fills; for vergence in degrees.")
+            .in({0, 1000, true})
+            .or_else(d.screen_width_m),
+        number_key("viewing_distance_m", "From the viewer to the screen.")
+            .in({0, 1000, true})
+            .or_else(d.viewing_distance_m),
+        number_key("eye_separation_m", "Of the viewer.").in({0, 1, true}).or_else(d.eye_separation_m),
+        integer_key("margin_px",
+                    "Columns by which the middle view is wider than the picture, on either side; \"auto\": "
+                    "as many as the largest disparity needs, at most a quarter of the picture.")
+            .in({0, 8192})
+            .or_word("auto")
+            .or_else("auto"),
+    };
+}
+
+std::vector<KeySpec> solver_keys() {
+    static const SolverParams d;
+    return {
+        integer_key("map_scale", "The disparity map is solved at 1 : map_scale of the picture.")
+            .one_of({1, 2, 4, 8})
+            .or_else(std::int64_t{1}),
+        choice_key("solver", {"multigrid", "fmg", "vcycle", "cascade"},
+                   "multigrid: conjugate gradients with a V-cycle. fmg: full multigrid, then V-cycles. "
+                   "vcycle: V-cycles alone. cascade: the paper's single pass from coarse to fine, inexact.")
+            .or_else("multigrid"),
+        number_key("tolerance_px",
+                   "Largest error of the map at which solving stops; its root mean square has to be 0.4 of "
+                   "that. Not of \"cascade\".")
+            .in({0, 100, true})
+            .or_else(d.tolerance_max_px),
+        integer_key("max_iterations", "Where solving gives up; a note says so.")
+            .in({1, 100000})
+            .or_else(std::int64_t{d.max_iterations}),
+        integer_key("cascade_sweeps", "Jacobi sweeps per level of \"cascade\".")
+            .in({0, 100000})
+            .or_else(std::int64_t{d.sweeps}),
+        boolean_key(
+            "warm_start",
+            "Solves a frame from the map of the one before, in fewer iterations; its pixels then depend, "
+            "within the tolerance, on which frames are rendered.")
+            .or_else(false),
+        boolean_key("half_storage", "Keeps the maps of \"cascade\" as 16-bit floats, as the paper does.")
+            .or_else(d.half_storage),
+        number_key("tessellation_px", "Triangles are split until their disparity is this near to the map's.")
+            .in({0.001, 100})
+            .or_else(ReprojectParams{}.tolerance_px),
+    };
+}
+
+std::vector<KeySpec> energy_keys() {
+    static const EditParams d;
+    return {
+        choice_key(
+            "interfaces", {"original", "edited"},
+            "What is wanted where two objects meet. original: the step that is there unedited, so that "
+            "neighbours follow an edit. edited: the step between the objects as edited, so that they "
+            "part; interface edits keep the original where it matters.")
+            .or_else("original"),
+        number_key("gradient_weight", "Of every wanted difference between neighbours.")
+            .in(positive_weight)
+            .or_else(d.gradient_weight),
+        number_key("anchor_weight", "Of anchors, times their own.").in(weight_range).or_else(d.anchor_weight),
+        number_key("match_weight", "Of matched points, times their own.")
+            .in(weight_range)
+            .or_else(d.match_weight),
+        number_key("regularization", "Pull of every pixel to its unedited disparity.")
+            .in({0, 1e6, true})
+            .or_else(d.epsilon),
+    };
+}
+
+std::vector<KeySpec> conflict_keys() {
+    static const EditParams d;
+    return {
+        number_key("comfort_near_percent", "Largest disparity that is comfortable; no limit when not given.")
+            .in({0, 100})
+            .animate(),
+        number_key("comfort_far_percent", "Smallest one, behind the screen and so negative.")
+            .in({-100, 0})
+            .animate(),
+        number_key("comfort_near_deg", "Instead of comfort_near_percent: as vergence.").in({0, 90}).animate(),
+        number_key("comfort_far_deg", "Instead of comfort_far_percent: as vergence.").in({-90, 0}).animate(),
+        number_key("comfort_weight", "Anchors of pixels outside of these limits; 0: leave them.")
+            .in(weight_range)
+            .or_else(d.comfort_weight),
+        number_key("window_weight",
+                   "Anchors of what the picture's sides cut in front of the screen; 0: leave it.")
+            .in(weight_range)
+            .or_else(d.window_weight),
+        boolean_key("window_inherited", "Also what the sides cut as badly without any edit.")
+            .or_else(d.window_inherited),
+        boolean_key("reset_inversions",
+                    "Where an edit would turn near and far around, the original difference is wanted.")
+            .or_else(d.reset_inversions),
+        boolean_key("limit_folds",
+                    "Depth that would rise so steeply that an eye looks behind it is kept from folding.")
+            .or_else(d.limit_folds),
+    };
+}
+
+/// The comparison that --compare remap shows.
+std::vector<KeySpec> remap_keys() {
+    static const RangeRemap d;
+    const auto percent = [](const char* name, const char* doc) {
+        return number_key(name, doc).in({-100, 100});
+    };
+    return {
+        choice_key(
+            "remap", {"linear", "log", "histogram", "match"},
+            "One curve for the disparities of the whole picture, to compare edits with (--compare "
+            "remap). linear: to a range. log: to a range, near depth compressed. histogram: to a range, "
+            "depths that many pixels have get more of it. match: two disparities become one.")
+            .or_else("linear"),
+        percent("remap_near_percent", "Largest disparity of the wanted range.").or_else(1.0),
+        percent("remap_far_percent", "Smallest one.").or_else(-1.0),
+        number_key(
+            "remap_curvature",
+            "Of \"log\": the slope at the near end is 1 / (1 + it) of that at the far end; negative: the "
+            "reverse; 0 is linear.")
+            .in({-1000, 1000})
+            .or_else(d.curvature),
+        number_key("remap_strength", "Of \"histogram\": 0 is linear, at 1 unused disparities vanish.")
+            .in({0, 1})
+            .or_else(d.strength),
+        percent("remap_first_percent", "Of \"match\": a disparity.").or_else(0.0),
+        percent("remap_second_percent", "The one that it is brought together with.").or_else(0.0),
+        percent("remap_matched_percent", "What both become.").or_else(0.0),
+    };
+}
+
+KeySpec target_key(const char* name, const char* doc) {
+    return name_list_key(name, doc);
+}
+
+std::vector<KeySpec> target_keys() {
+    return {
+        target_key("objects",
+                   "Meshes by id, or single ones of their objects: \"ID/OBJECT\" of files with several, "
+                   "\"ID#0\" of instances."),
+        target_key("materials",
+                   "Materials by name, or \"ID/SLOT\" for what a shape or a file brings along. Objects and "
+                   "materials together: pixels of any of them."),
+    };
+}
+
+/// An offset in either unit.
+std::vector<KeySpec> offset_keys(const char* doc) {
+    return {
+        number_key("offset_px", doc).in({-1e5, 1e5}).animate(),
+        number_key("offset_percent", "Instead of offset_px: so that it fits pictures of any size.")
+            .in({-100, 100})
+            .animate(),
+    };
+}
+
+std::vector<KeySpec> operator+(std::vector<KeySpec> a, std::vector<KeySpec> b) {
+    for (KeySpec& key : b)
+        a.push_back(std::move(key));
+    return a;
+}
+
+std::vector<VariantSpec> edit_variants() {
+    std::vector<KeySpec> roundness{
+        number_key("roundness",
+                   "Scales disparity about the target's centre: 0 flattens, 1 changes nothing, 2 doubles.")
+            .in({0, 100})
+            .need()
+            .animate(),
+        boolean_key("together",
+                    "The target is one thing made of several objects: it has one centre, and borders inside "
+                    "it are scaled, too.")
+            .or_else(false)};
+    std::vector<KeySpec> second{
+        target_key("second_objects",
+                   "The other side of the border, as objects; anything when there is no second."),
+        target_key("second_materials", "The same, as materials."),
+        file_key("mask",
+                 "A picture, stretched over the frame: white counts, black does not. With objects or "
+                 "materials it limits these, alone it keeps depth inside objects, too. PNG, PBM or PGM "
+                 "without colours, inside the scene's folder."),
+        boolean_key("keep", "false: lets go of what interfaces = \"original\" would keep.").or_else(true),
+    };
+    const auto point = [](const char* px, const char* px_doc, const char* m, const char* m_doc) {
+        return std::vector<KeySpec>{vec2_key(px, px_doc).in({-1e6, 1e6}).animate(),
+                                    vec3_key(m, m_doc).in(anywhere).animate()};
+    };
+    return {
+        {"roundness", "More or less depth within the target.", target_keys() + std::move(roundness)},
+        {"anchor", "Holds the target at its own disparity (with its roundness), or at an offset from it.",
+         target_keys() + offset_keys("Towards the viewer when positive; 0 when neither is given.")},
+        {"interface",
+         "Keeps the original depth where two targets meet, or one and anything, or under a mask; or lets it "
+         "go.",
+         target_keys() + std::move(second)},
+        {"match", "What surrounds the destination takes the disparity of the source.",
+         point("source_px", "Point of the picture whose disparity is taken: right, down from its corner.",
+               "source_m", "Instead of source_px: a point of the scene.") +
+             point("destination_px", "Point that gets it.", "destination_m",
+                   "Instead of destination_px: a point of the scene.") +
+             offset_keys("Of the destination from the source, towards the viewer.") +
+             std::vector<KeySpec>{
+                 number_key("radius_px", "Of the disc that moves along; 0: the destination's whole object.")
+                     .in({0, 1e5})
+                     .or_else(0.0),
+                 boolean_key(
+                     "hold_source",
+                     "The source's whole object, or the disc of radius_px around it, keeps its "
+                     "distance to the source. Without, the source alone may be drawn out to where the "
+                     "destination is.")
+                     .or_else(true),
+                 boolean_key("any_object", "With radius_px: other objects within it move along, too.")
+                     .or_else(false)}},
+    };
+}
+
+std::vector<KeySpec> fade_keys() {
+    return {
+        vec2_key(
+            "fade_angle_deg",
+            "[full, none]: the weight, and the offset of an anchor, fade out between these angles of the "
+            "view from fade_direction.")
+            .in({0, 180}),
+        vec3_key("fade_direction", "Direction of the view for which fade_angle_deg is 0.").in(anywhere),
+        vec2_key(
+            "fade_distance_m",
+            "[full, none]: the weight, and the offset of an anchor, fade out between these distances of the "
+            "camera from fade_position_m.")
+            .in({0, 1e9}),
+        vec3_key("fade_position_m", "Where fade_distance_m is measured from.").in(anywhere),
+    };
+}
+
+}  // namespace
+
+const TableSpec& stereo_edit_table() {
+    static const TableSpec spec = [] {
+        TableSpec s{"[[stereo.edit]]",
+                    "A wish for the disparity of a part of the picture. All of them are weighed against one "
+                    "another, and against the depths that the scene has.",
+                    {},
+                    "type",
+                    edit_variants()};
+        std::vector<std::string> types;
+        for (const VariantSpec& variant : s.variants)
+            types.push_back(variant.name);
+        s.keys = {
+            name_key("id", "Name, unique among edits.").need(),
+            choice_key("type", types, "Kind of edit.").need(),
+            number_key("weight",
+                       "How strongly it is wanted; of roundness and interface the share that is applied, at "
+                       "most 1. 0 turns it off.")
+                .in(weight_range)
+                .or_else(1.0)
+                .animate(),
+        };
+        for (KeySpec& key : fade_keys())
+            s.keys.push_back(std::move(key));
+        return s;
+    }();
+    return spec;
+}
+
+const TableSpec& stereo_table() {
+    static const TableSpec spec = [] {
+        TableSpec s{"[stereo]",
+                    "Two eyes in place of the camera, and edits of the disparity between them: x of a point "
+                    "in the left picture minus x in the right one, positive in front of the screen.",
+                    rig_keys() + solver_keys() + energy_keys() + conflict_keys() + remap_keys(),
+                    "",
+                    {}};
+        s.keys.push_back(table_list_key("edit", stereo_edit_table()));
+        return s;
+    }();
+    return spec;
+}
+
+}  // namespace obscura

@@ -1,0 +1,123 @@
+#include "app/scene/obj_mesh.h"
+
+#include <cmath>
+
+#include "core/polygon.h"
+
+namespace obscura {
+namespace {
+
+constexpr std::uint32_t none = UINT32_MAX;
+
+/// Vertices by the corner they stand for: one chain per position, in order of first use.
+class VertexTable {
+  public:
+    explicit VertexTable(std::size_t positions) : head_(positions, none) {}
+
+    std::uint32_t find_or_add(const ObjCorner& corner) {
+        std::uint32_t* link = &head_[static_cast<std::size_t>(corner.position)];
+        while (*link != none) {
+            if (corners[*link] == corner) return *link;
+            link = &next_[*link];
+        }
+        const auto vertex = static_cast<std::uint32_t>(corners.size());
+        *link = vertex;  // before next_ grows and moves
+        corners.push_back(corner);
+        next_.push_back(none);
+        return vertex;
+    }
+
+    std::vector<ObjCorner> corners;
+
+  private:
+    std::vector<std::uint32_t> head_, next_;
+};
+
+/// Objects that own faces, in the order of the file.
+class ObjectTable {
+  public:
+    ObjectTable(const ObjText& text, const std::string& fallback)
+        : text_(text), fallback_(fallback), number_(text.object_names.size() + 1, none) {}
+
+    std::uint32_t number(std::int32_t object) {
+        std::uint32_t& n = number_[static_cast<std::size_t>(object + 1)];
+        if (n == none) {
+            n = static_cast<std::uint32_t>(objects.size());
+            objects.push_back(
+                {object < 0 ? fallback_ : text_.object_names[static_cast<std::size_t>(object)].name});
+        }
+        return n;
+    }
+
+    std::vector<Object> objects;
+
+  private:
+    const ObjText& text_;
+    const std::string& fallback_;
+    std::vector<std::uint32_t> number_;
+};
+
+Vec3f unit_or_zero(Vec3f n) {
+    return to_float(normalize(to_double(n), {0, 0, 0}));
+}
+
+void fill_vertices(Mesh& mesh, const ObjText& text, const std::vector<ObjCorner>& corners) {
+    mesh.positions.resize(corners.size());
+    mesh.normals.assign(corners.size(), {});
+    if (!text.uvs.empty()) mesh.uvs.assign(corners.size(), {});
+    for (std::size_t v = 0; v < corners.size(); ++v) {
+        const ObjCorner& c = corners[v];
+        mesh.positions[v] = text.positions[static_cast<std::size_t>(c.position)];
+        if (c.uv >= 0) mesh.uvs[v] = text.uvs[static_cast<std::size_t>(c.uv)];
+        if (c.normal >= 0) mesh.normals[v] = unit_or_zero(text.normals[static_cast<std::size_t>(c.normal)]);
+    }
+}
+
+}  // namespace
+
+Mesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_angle_deg,
+                    TopologyReport& report) {
+    Mesh mesh;
+    const auto count = static_cast<std::size_t>(text.triangles);
+    mesh.triangles.reserve(count);
+    mesh.material.reserve(count);
+    mesh.object.reserve(count);
+    std::vector<std::uint32_t> smoothing;
+    smoothing.reserve(count);
+
+    VertexTable vertices(text.positions.size());
+    ObjectTable objects(text, name);
+    std::vector<Vec3f> outline;
+    for (const ObjFace& face : text.faces) {
+        const ObjCorner* corner = &text.corners[face.first_corner];
+        outline.clear();
+        for (std::uint32_t k = 0; k < face.corner_count; ++k) {
+            outline.push_back(text.positions[static_cast<std::size_t>(corner[k].position)]);
+        }
+        const std::uint32_t object = objects.number(face.object);
+        for (const auto& cut : triangulate_polygon(outline)) {
+            Triangle triangle;
+            for (std::size_t k = 0; k < 3; ++k)
+                triangle.v[k] = vertices.find_or_add(corner[cut[k]]);
+            mesh.triangles.push_back(triangle);
+            mesh.material.push_back(face.material >= 0
+                                        ? static_cast<std::uint32_t>(face.material)
+                                        : static_cast<std::uint32_t>(text.material_names.size()));
+            mesh.object.push_back(object);
+            smoothing.push_back(face.smoothing);
+        }
+    }
+    mesh.objects = std::move(objects.objects);
+    fill_vertices(mesh, text, vertices.corners);
+
+    // Solids are judged by the file's own indices, before normals split vertices.
+    std::vector<std::uint32_t> position_ids;
+    position_ids.reserve(vertices.corners.size());
+    for (const ObjCorner& c : vertices.corners)
+        position_ids.push_back(static_cast<std::uint32_t>(c.position));
+    report = analyse_topology(mesh, position_ids);
+    compute_normals(mesh, crease_angle_deg, smoothing);
+    return mesh;
+}
+
+}  // namespace obscura

@@ -1,0 +1,16 @@
+#pragma once
+// Rules of shadow settings: where they stand, which keys go together, what they default to.
+
+#include <string>
+#include <vector>
+
+#include "app/scene/value.h"
+
+namespace obscura {
+
+/// Moves [shadow.LIGHT] and [shadow] into the lights they are for and completes them: each light's `shadow`
+/// then has every key that its method reads. Throws InputError.
+void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids,
+                   const std::vector<std::string>& sources);
+
+}  // namespace obscura

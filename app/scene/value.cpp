@@ -1,0 +1,147 @@
+#include "app/scene/value.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/error.h"
+
+namespace obscura {
+namespace {
+
+const SceneValue& get(const SceneTable& table, std::string_view key) {
+    const SceneEntry* entry = table.find(key);
+    CHECK(entry != nullptr, fmt::format("no key '{}'", key));
+    return entry->value;
+}
+
+template <class T>
+const T& get_as(const SceneTable& table, std::string_view key) {
+    const T* value = std::get_if<T>(&get(table, key).data);
+    CHECK(value != nullptr, fmt::format("key '{}' has another type", key));
+    return *value;
+}
+
+double as_number(const SceneValue& value) {
+    if (const auto* i = std::get_if<std::int64_t>(&value.data)) return static_cast<double>(*i);
+    const auto* d = std::get_if<double>(&value.data);
+    CHECK(d != nullptr, "not a number");
+    return *d;
+}
+
+}  // namespace
+
+const SceneEntry* SceneTable::find(std::string_view key) const {
+    const auto it =
+        std::find_if(entries.begin(), entries.end(), [&](const SceneEntry& e) { return e.key == key; });
+    return it == entries.end() ? nullptr : &*it;
+}
+
+SceneEntry* SceneTable::find(std::string_view key) {
+    return const_cast<SceneEntry*>(static_cast<const SceneTable*>(this)->find(key));
+}
+
+void SceneTable::set(std::string_view key, SceneValue value) {
+    const Place place = value.place;
+    if (SceneEntry* entry = find(key)) {
+        *entry = {std::string(key), place, std::move(value)};
+    } else {
+        entries.push_back({std::string(key), place, std::move(value)});
+    }
+}
+
+void SceneTable::erase(std::string_view key) {
+    std::erase_if(entries, [&](const SceneEntry& e) { return e.key == key; });
+}
+
+SceneValue value_of(bool v) {
+    return {v, {}};
+}
+SceneValue value_of(std::int64_t v) {
+    return {v, {}};
+}
+SceneValue value_of(double v) {
+    return {v, {}};
+}
+SceneValue value_of(const char* v) {
+    return {std::string(v), {}};
+}
+SceneValue value_of(Size2 v) {
+    return {SceneList{value_of(std::int64_t{v.width}), value_of(std::int64_t{v.height})}, {}};
+}
+SceneValue value_of(Vec2d v) {
+    return {SceneList{value_of(v.x), value_of(v.y)}, {}};
+}
+SceneValue value_of(Vec3d v) {
+    return {SceneList{value_of(v.x), value_of(v.y), value_of(v.z)}, {}};
+}
+
+SceneValue value_of(Vec3f v) {
+    const auto decimal = [](float f) { return std::strtod(fmt::format("{}", f).c_str(), nullptr); };
+    return value_of(Vec3d{decimal(v.x), decimal(v.y), decimal(v.z)});
+}
+
+bool boolean(const SceneTable& table, std::string_view key) {
+    return get_as<bool>(table, key);
+}
+
+std::int64_t integer(const SceneTable& table, std::string_view key) {
+    return get_as<std::int64_t>(table, key);
+}
+
+double number(const SceneTable& table, std::string_view key) {
+    return as_number(get(table, key));
+}
+
+const std::string& text(const SceneTable& table, std::string_view key) {
+    return get_as<std::string>(table, key);
+}
+
+Vec2d vec2(const SceneTable& table, std::string_view key) {
+    const auto& list = get_as<SceneList>(table, key);
+    CHECK(list.size() == 2, fmt::format("key '{}' has {} numbers", key, list.size()));
+    return {as_number(list[0]), as_number(list[1])};
+}
+
+Vec3d vec3(const SceneTable& table, std::string_view key) {
+    const auto& list = get_as<SceneList>(table, key);
+    CHECK(list.size() == 3, fmt::format("key '{}' has {} numbers", key, list.size()));
+    return {as_number(list[0]), as_number(list[1]), as_number(list[2])};
+}
+
+Size2 size2(const SceneTable& table, std::string_view key) {
+    const auto& list = get_as<SceneList>(table, key);
+    CHECK(list.size() == 2, fmt::format("key '{}' has {} numbers", key, list.size()));
+    return {static_cast<int>(as_number(list[0])), static_cast<int>(as_number(list[1]))};
+}
+
+DateTime date_time(const SceneTable& table, std::string_view key) {
+    return get_as<DateTime>(table, key);
+}
+
+const SceneTable& subtable(const SceneTable& table, std::string_view key) {
+    return get_as<SceneTable>(table, key);
+}
+
+std::vector<std::string> text_list(const SceneTable& table, std::string_view key) {
+    std::vector<std::string> all;
+    if (!table.has(key)) return all;
+    for (const SceneValue& item : get_as<SceneList>(table, key))
+        all.push_back(std::get<std::string>(item.data));
+    return all;
+}
+
+std::vector<const SceneTable*> subtables(const SceneTable& table, std::string_view key) {
+    std::vector<const SceneTable*> tables;
+    if (!table.has(key)) return tables;
+    for (const SceneValue& item : get_as<SceneList>(table, key))
+        tables.push_back(&std::get<SceneTable>(item.data));
+    return tables;
+}
+
+Place place_of(const SceneTable& table, std::string_view key) {
+    return get(table, key).place;
+}
+
+}  // namespace obscura

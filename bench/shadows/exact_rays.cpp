@@ -1,0 +1,133 @@
+#include "bench/shadows/exact_rays.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "core/parallel.h"
+
+namespace obscura {
+
+struct ExactRays::Scene {
+    const Mesh* mesh = nullptr;
+    double ulp = 0;  ///< unit in the last place of the largest coordinate, metres
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+    ~Scene() {
+        if (scene != nullptr) rtcReleaseScene(scene);
+        if (device != nullptr) rtcReleaseDevice(device);
+    }
+};
+
+namespace {
+
+constexpr double judged_ulps = 1024, own_surface_ulps = 8;
+
+/// Embree hands the context's address to the filter, so `base` comes first.
+struct RayContext {
+    RTCIntersectContext base;
+    const Mesh* mesh;
+    double ulp;
+    Vec3d point, direction;
+    std::uint32_t face;
+};
+
+bool is_own_surface(const RayContext& ray, std::uint32_t triangle, double t) {
+    const std::uint32_t face = ray.mesh->face[triangle];
+    if (face == ray.face) return true;
+    if (t > judged_ulps * ray.ulp) return false;
+    // Distance along the ray to the plane of the face that was hit; edge-on it says nothing.
+    const Plane& plane = ray.mesh->faces[face];
+    const double across = dot(plane.n, ray.direction);
+    if (std::fabs(across) < 1e-9) return true;
+    return -(dot(plane.n, ray.point) + plane.d) / across <= own_surface_ulps * ray.ulp;
+}
+
+void ignore_own_surface(const RTCFilterFunctionNArguments* args) {
+    const auto& ray = *reinterpret_cast<const RayContext*>(args->context);
+    for (unsigned lane = 0; lane < args->N; ++lane) {
+        if (args->valid[lane] == 0) continue;
+        const unsigned triangle = RTCHitN_primID(args->hit, args->N, lane);
+        const auto t = static_cast<double>(RTCRayN_tfar(args->ray, args->N, lane));
+        if (is_own_surface(ray, triangle, t)) args->valid[lane] = 0;
+    }
+}
+
+template <class T>
+void upload(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<T>& values) {
+    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size());
+    std::memcpy(buffer, values.data(), values.size() * sizeof(T));
+}
+
+}  // namespace
+
+ExactRays::ExactRays(const Mesh& mesh) : scene_(std::make_unique<Scene>()) {
+    scene_->mesh = &mesh;
+    float largest = 0;
+    for (const Vec3f& p : mesh.positions)
+        largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    scene_->ulp = static_cast<double>(largest) * 0x1p-23;
+    scene_->device = rtcNewDevice(nullptr);
+    if (scene_->device == nullptr) throw std::runtime_error("Embree cannot create a device");
+    RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    upload(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions);
+    upload(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
+    rtcCommitGeometry(geometry);
+    scene_->scene = rtcNewScene(scene_->device);
+    rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcAttachGeometry(scene_->scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_->scene);
+    if (rtcGetDeviceError(scene_->device) != RTC_ERROR_NONE) throw std::runtime_error("Embree failed");
+}
+
+ExactRays::~ExactRays() = default;
+
+bool ExactRays::occluded(Vec3d point, std::uint32_t face, Vec3d to_light) const {
+    RayContext context;
+    rtcInitIntersectContext(&context.base);
+    context.base.filter = ignore_own_surface;
+    context.mesh = scene_->mesh;
+    context.ulp = scene_->ulp;
+    context.point = point;
+    context.direction = to_light;
+    context.face = face;
+    const Vec3f origin = to_float(context.point), direction = to_float(to_light);
+    RTCRay ray{};
+    ray.org_x = origin.x;
+    ray.org_y = origin.y;
+    ray.org_z = origin.z;
+    ray.dir_x = direction.x;
+    ray.dir_y = direction.y;
+    ray.dir_z = direction.z;
+    ray.tnear = 0;
+    ray.tfar = 1e30f;
+    ray.mask = ~0u;
+    rtcOccluded1(scene_->scene, &context.base, &ray);
+    return ray.tfar < 0;  // Embree's mark of an occluded ray
+}
+
+std::vector<Truth> true_shadows(const ExactRays& rays, const Mesh& mesh, const VisiblePoints& points,
+                                Vec3d to_light, const Exec& exec) {
+    std::vector<Truth> truth(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height),
+                             Truth::nothing);
+    const Vec3f light = to_float(to_light);
+    parallel_for(points.blocks.size(), exec, [&](std::size_t b) {
+        const SurfaceBlock& s = points.blocks[b];
+        for (int at = 0; at < block_samples; ++at) {
+            if (!is_covered(s, at)) continue;
+            Truth& t = truth[points.pixel(b, at)];
+            t = Truth::away;
+            if (!(dot(Vec3f{s.gx[at], s.gy[at], s.gz[at]}, light) > 0)) continue;
+            const Vec3d p = points.eye + to_double(Vec3f{s.px[at], s.py[at], s.pz[at]});
+            const std::uint32_t face = mesh.face[s.triangle[at]];
+            t = rays.occluded(on_plane(mesh.faces[face], p), face, to_light) ? Truth::dark : Truth::lit;
+        }
+    });
+    return truth;
+}
+
+}  // namespace obscura

@@ -1,0 +1,149 @@
+// [shadow] cache: files of finished maps, as the program's users meet them.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "hierarchy/tree_file.h"
+#include "tests/cli/program.h"
+#include "tests/report/json_reader.h"
+
+namespace obscura::test {
+namespace {
+
+/// A folder with the small scene, its lamp's map cached in `maps`.
+struct CachedScene {
+    explicit CachedScene(const std::string& lamp = "scope = \"full\"") {
+        std::string text = small_scene;
+        text.replace(text.find("[shadow.lamp]"), 13, "[shadow]\ncache = \"maps\"\n[shadow.lamp]\n" + lamp);
+        folder.write("s.toml", text);
+    }
+    /// Renders and returns what the statistics say of the lamp.
+    Outcome render(std::vector<std::string> more = {}) const {
+        std::vector<std::string> line{"render", "s.toml",       "--overwrite", "-o",
+                                      "s.png",  "--stats-json", "s.json"};
+        line.insert(line.end(), more.begin(), more.end());
+        return run_in(folder, line);
+    }
+    bool from_cache() const {
+        const Json stats = parse_json(file_text(folder / "s.json"));
+        return stats.at("frames").list.at(0).at("lights").list.at(0).at("from_cache").truth;
+    }
+    std::string map() const { return file_text(folder / "maps/lamp.shadowtree"); }
+
+    Folder folder;
+};
+
+TEST(ShadowCache, GivesTheSamePictureWithoutBuilding) {
+    const CachedScene scene;
+    ASSERT_EQ(scene.render().code, 0);
+    EXPECT_FALSE(scene.from_cache());
+    const std::string picture = file_text(scene.folder / "s.png"), map = scene.map();
+    EXPECT_GT(map.size(), 64u);
+    const Outcome second = scene.render();
+    ASSERT_EQ(second.code, 0) << second.err;
+    EXPECT_EQ(second.err.find("note"), std::string::npos) << second.err;
+    EXPECT_TRUE(scene.from_cache());
+    EXPECT_EQ(file_text(scene.folder / "s.png"), picture);
+    EXPECT_EQ(scene.map(), map);
+    // The camera does not matter.
+    ASSERT_EQ(scene.render({"-D", "camera.eye_m=[1,2,8]"}).code, 0);
+    EXPECT_TRUE(scene.from_cache());
+}
+
+TEST(ShadowCache, IsMadeAgainWithANoticeWhenAnythingItDependsOnChanged) {
+    const CachedScene scene;
+    ASSERT_EQ(scene.render().code, 0);
+    for (const char* change :
+         {"mesh.cube.size_m=2.01", "light.lamp.elevation_deg=31", "light.lamp.shadow.resolution=512",
+          "light.lamp.shadow.layout=bytes16", "light.lamp.shadow.receivers=any",
+          "light.lamp.shadow.top_levels=3", "mesh.cube.casts_shadow=false"}) {
+        const std::string before = scene.map();
+        std::string key = change;
+        // [shadow.lamp] stands in a table of its own.
+        if (key.starts_with("light.lamp.shadow")) key = "shadow.lamp" + key.substr(17);
+        const Outcome run = scene.render({"-D", key});
+        ASSERT_EQ(run.code, 0) << run.err;
+        EXPECT_NE(run.err.find("lamp.shadowtree was made from another scene, light or settings"),
+                  std::string::npos)
+            << key << ": " << run.err;
+        EXPECT_FALSE(scene.from_cache()) << key;
+        EXPECT_NE(scene.map(), before) << key;
+        ASSERT_EQ(scene.render().code, 0);  // back
+        EXPECT_FALSE(scene.from_cache());
+    }
+}
+
+TEST(ShadowCache, RefusesFilesThatAreCutAlteredOrForeign) {
+    const CachedScene scene;
+    ASSERT_EQ(scene.render().code, 0);
+    const std::string good = scene.map();
+    std::string altered = good;
+    altered[good.size() - 5] = static_cast<char>(altered[good.size() - 5] ^ 4);
+    for (const std::string& bad : {good.substr(0, good.size() - 1), good.substr(0, 10), std::string(),
+                                   altered, std::string("a picture of a cat"), good + "x"}) {
+        scene.folder.write("maps/lamp.shadowtree", bad);
+        const Outcome run = scene.render();
+        EXPECT_EQ(run.code, 3) << run.err;
+        EXPECT_NE(run.err.find("lamp.shadowtree"), std::string::npos) << run.err;
+        EXPECT_NE(run.err.find("when it is deleted, a new one is made"), std::string::npos) << run.err;
+        EXPECT_EQ(scene.map(), bad) << "written to";
+    }
+    std::filesystem::remove(scene.folder / "maps/lamp.shadowtree");
+    EXPECT_EQ(scene.render().code, 0);
+    EXPECT_EQ(scene.map(), good);
+}
+
+TEST(ShadowCache, RefusesTreesOfOtherViewsUnderTheRightKey) {
+    const CachedScene scene;
+    ASSERT_EQ(scene.render().code, 0);
+    const auto file = scene.folder / "maps/lamp.shadowtree";
+    const TreeFile good = read_tree_file(file);
+    ASSERT_EQ(good.trees.size(), 1u);
+    ShadowTree moved = good.trees[0];
+    moved.view.to_map.m[0][3] += 1.0;
+    // Files are renamed into place, so what is mapped from the first one stays readable.
+    for (const std::vector<ShadowTree>& trees :
+         {std::vector<ShadowTree>{moved}, std::vector<ShadowTree>(2, good.trees[0])}) {
+        write_tree_file(file, trees, good.key);
+        const Outcome run = scene.render();
+        EXPECT_EQ(run.code, 3) << run.err;
+        EXPECT_NE(run.err.find("other views"), std::string::npos) << run.err;
+    }
+}
+
+TEST(ShadowCache, LiesWhereScenesMayRead) {
+    const CachedScene scene;
+    const Folder elsewhere;
+    const std::string key = "shadow.cache=\"" + elsewhere.path.string() + "\"";
+    const Outcome refused = scene.render({"-D", key});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_NE(refused.err.find("leads outside"), std::string::npos) << refused.err;
+    EXPECT_NE(refused.err.find("-D shadow.cache="), std::string::npos) << refused.err;  // where the key is
+    EXPECT_TRUE(elsewhere.listing().empty());
+    ASSERT_EQ(scene.render({"-D", key, "--allow-path", elsewhere.path.string()}).code, 0);
+    EXPECT_EQ(elsewhere.listing(), (std::vector<std::string>{"lamp.shadowtree"}));
+
+    scene.folder.write("file", "no folder");
+    const Outcome file = scene.render({"-D", "shadow.cache=file"});
+    EXPECT_EQ(file.code, 3);
+    EXPECT_NE(file.err.find("not a folder"), std::string::npos) << file.err;
+    const Outcome deep = scene.render({"-D", "shadow.cache=a/b/c"});
+    EXPECT_EQ(deep.code, 5);
+    EXPECT_NE(deep.err.find("cannot make the shadow cache"), std::string::npos) << deep.err;
+    ASSERT_EQ(::mkdir((scene.folder / "taken").c_str(), 0700), 0);
+    ASSERT_EQ(::mkdir((scene.folder / "taken/lamp.shadowtree").c_str(), 0700), 0);
+    EXPECT_NE(scene.render({"-D", "shadow.cache=taken"}).code, 0);
+    // Looking at a scene makes nothing.
+    EXPECT_EQ(run_in(scene.folder, {"check", "s.toml", "-D", "shadow.cache=new"}).code, 0);
+    EXPECT_FALSE(std::filesystem::exists(scene.folder / "new"));
+}
+
+TEST(ShadowCache, IsNoneForMapsOfOneFrame) {
+    const CachedScene scene("scope = \"frame\"");
+    ASSERT_EQ(scene.render().code, 0);
+    EXPECT_FALSE(std::filesystem::exists(scene.folder / "maps"));
+}
+
+}  // namespace
+}  // namespace obscura::test

@@ -1,0 +1,190 @@
+// The same bits from every kernel, thread count, crop and order of frames.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+
+#include "app/frame/shadows.h"
+#include "app/scene/build.h"
+#include "tests/frame/scenes.h"
+
+namespace obscura {
+namespace {
+
+using namespace frame_scenes;
+
+/// Zeroes what a stage leaves undefined, so that the rest can be compared byte by byte.
+void forget_undefined(SurfaceBlock& s) {
+    for (int at = 0; at < block_samples; ++at) {
+        const auto in = [&](const std::uint32_t* masks) { return (masks[at / 16] >> (at & 15) & 1u) != 0; };
+        if (!in(s.covered)) {
+            for (float* plane : {s.nx, s.ny, s.nz, s.gx, s.gy, s.gz})
+                plane[at] = 0;
+        }
+        if (!in(s.textured)) {
+            for (float* plane : {s.u, s.v, s.ux, s.vx, s.uy, s.vy, s.texel_r, s.texel_g, s.texel_b})
+                plane[at] = 0;
+        }
+    }
+}
+
+void forget_undefined(const SurfaceBlock& s, ShadeBlock& shade) {
+    for (int at = 0; at < block_samples; ++at) {
+        const auto in = [&](const std::uint32_t* masks) { return (masks[at / 16] >> (at & 15) & 1u) != 0; };
+        if (!in(s.covered)) {
+            for (float* plane : {shade.nv, shade.veil, shade.smith_v, shade.alpha2, shade.diffuse_r,
+                                 shade.diffuse_g, shade.diffuse_b, shade.f0_r, shade.f0_g, shade.f0_b})
+                plane[at] = 0;
+        }
+        if (!in(s.covered) || !in(s.thin))
+            shade.through_r[at] = shade.through_g[at] = shade.through_b[at] = 0;
+    }
+}
+
+class EveryIsa : public testing::TestWithParam<bool> {};
+
+TEST_P(EveryIsa, StagesAgreeWithTheReferenceBitForBit) {
+    const Scene scene = everything(4, GetParam());
+    FrameCache cache;
+    FrameStats stats;
+    const Exec exec;
+    prepare_scene(scene, exec, cache, stats);
+    TileScene tiles = prepare_tiles(scene, exec, cache);
+    prepare_shadows(scene, 0, exec, cache, tiles, stats);
+    const auto expected = std::make_unique<TileWork>(), actual = std::make_unique<TileWork>();
+    std::int64_t blocks = 0, textured = 0, thin = 0, open = 0;
+    for (int tile_row = 0; tile_row < tiles.bins->rows; ++tile_row) {
+        for (int column = 0; column < tiles.bins->columns; ++column) {
+            for (int row = 0; row < frame_tile_side; row += block_rows) {
+                for (const Isa isa : supported_isas()) {
+                    TileWork& work = isa == Isa::ref ? *expected : *actual;
+                    std::memset(static_cast<void*>(&work), 0, sizeof work);
+                    const TileRect tile =
+                        tile_visibility(tiles, column, tile_row, tiles.pattern[1], best_isa(), work);
+                    block_surface(tiles, tile, row, isa, work);
+                    block_shade(tiles, isa, true, work);
+                    forget_undefined(work.surface);
+                    forget_undefined(work.surface, work.shade);
+                    ASSERT_EQ(0, std::memcmp(&expected->surface, &work.surface, sizeof work.surface))
+                        << isa_name(isa) << " surface, tile " << column << "," << tile_row << " row " << row;
+                    ASSERT_EQ(0, std::memcmp(&expected->shade, &work.shade, sizeof work.shade))
+                        << isa_name(isa) << " shade, tile " << column << "," << tile_row << " row " << row;
+                    ASSERT_EQ(0, std::memcmp(expected->shadow_sum, work.shadow_sum, sizeof work.shadow_sum))
+                        << isa_name(isa) << " visibility, tile " << column << "," << tile_row;
+                }
+                ++blocks;
+                for (int g = 0; g < block_groups; ++g) {
+                    textured += expected->surface.textured[g] != 0;
+                    thin += expected->surface.thin[g] != 0;
+                    open += expected->surface.open[g] != 0;
+                }
+            }
+        }
+    }
+    // The scene did ask every question.
+    EXPECT_GT(blocks, 100);
+    EXPECT_GT(textured, 100);
+    EXPECT_GT(thin, 10);
+    EXPECT_GT(open, 100);
+}
+INSTANTIATE_TEST_SUITE_P(Cameras, EveryIsa, testing::Bool());
+
+TEST(FrameDeterminism, SamePictureOnEveryIsaAndThreadCount) {
+    const Scene scene = everything(4);
+    const std::uint64_t expected = hash(render_frame(scene, {}, {Isa::ref, 1}));
+    for (const Isa isa : supported_isas()) {
+        for (const int threads : {1, 2, 3, 7}) {
+            if (isa == Isa::ref && threads != 7) continue;
+            EXPECT_EQ(hash(render_frame(scene, {}, {isa, threads})), expected)
+                << isa_name(isa) << ", " << threads << " threads";
+        }
+    }
+}
+
+TEST(FrameDeterminism, CropIsPartOfTheWhole) {
+    const Scene scene = everything(1);
+    FrameOptions options;
+    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
+    const Frame whole = render_frame(scene, options);
+    options.crop = {37, 21, 101, 77};
+    const Frame part = render_frame(scene, options);
+    ASSERT_EQ(part.width, 101);
+    ASSERT_EQ(part.height, 77);
+    for (int y = 0; y < part.height; ++y) {
+        for (int x = 0; x < part.width; ++x) {
+            ASSERT_EQ(pixel(part, x, y), pixel(whole, x + 37, y + 21)) << x << "," << y;
+            ASSERT_EQ(part.depth_m(x, y), whole.depth_m(x + 37, y + 21));
+            ASSERT_EQ(part.normal(x, y), whole.normal(x + 37, y + 21));
+            ASSERT_EQ(part.albedo(x, y), whole.albedo(x + 37, y + 21));
+            ASSERT_EQ(part.object(x, y), whole.object(x + 37, y + 21));
+            ASSERT_EQ(part.shadow(x, y), whole.shadow(x + 37, y + 21));
+        }
+    }
+}
+
+TEST(FrameDeterminism, KeptMapsGiveTheSamePictureAsNewOnes) {
+    Scene scene = everything(1);
+    FrameCache cache;
+    Frame frame;
+    render_frame(scene, {}, {}, cache, frame);
+    EXPECT_EQ(frame.stats.shadow_maps, 1 + 6 + 1);
+
+    // Another camera and another colour: every map stays.
+    scene.camera.eye = {-3, 1.5, 5};
+    scene.lights[0].color = {1, 2, 3};
+    render_frame(scene, {}, {}, cache, frame);
+    EXPECT_EQ(frame.stats.shadow_maps, 0);
+    EXPECT_EQ(hash(frame), hash(render_frame(scene)));
+
+    // A light that moves gets a new map, the others keep theirs.
+    scene.lights[2].position.x += 0.5;
+    render_frame(scene, {}, {}, cache, frame);
+    EXPECT_EQ(frame.stats.shadow_maps, 1);
+    EXPECT_EQ(hash(frame), hash(render_frame(scene)));
+}
+
+TEST(FrameDeterminism, DoubledLightDoublesThePictureExactly) {
+    Scene scene = everything(1);
+    const Frame once = render_frame(scene);
+    for (Light& light : scene.lights)
+        light.color = light.color * 2.0f;
+    for (Material& material : scene.materials)
+        material.emission = material.emission * 2.0f;
+    for (Vec3f* sky : {&scene.sky.zenith, &scene.sky.horizon, &scene.sky.ground})
+        *sky = *sky * 2.0f;
+    const Frame twice = render_frame(scene);
+    for (int y = 0; y < once.height; ++y) {
+        for (int x = 0; x < once.width; ++x)
+            ASSERT_EQ(pixel(twice, x, y), pixel(once, x, y) * 2.0f) << x << "," << y;
+    }
+}
+
+TEST(FrameDeterminism, CancelStopsAndProgressEndsAtOne) {
+    const Scene scene = everything(1);
+    FrameOptions options;
+    double last = 0;
+    int calls = 0;
+    options.progress = [&](double share) {
+        EXPECT_GT(share, last);
+        last = share;
+        ++calls;
+    };
+    EXPECT_TRUE(render_frame(scene, options).complete);
+    EXPECT_EQ(last, 1.0);
+    EXPECT_GT(calls, 3);
+    std::atomic<bool> cancel = true;
+    options.cancel = &cancel;
+    EXPECT_FALSE(render_frame(scene, options).complete);
+}
+
+TEST(FrameDeterminism, MemoryIsCheckedBeforeTheWork) {
+    Scene scene = everything(1);
+    scene.lights[1].shadow.resolution = 16384;
+    scene.limits.memory_mib = 4096;
+    EXPECT_GT(estimate_memory(scene).total(), std::int64_t{6} * 16384 * 16384 * 4);
+    EXPECT_THROW(render_frame(scene), LimitError);
+}
+
+}  // namespace
+}  // namespace obscura

@@ -1,0 +1,55 @@
+// The pair of scenes/tests/stereo_pair.toml has the bits that it had: its map and both eyes' radiance, for
+// any number of threads and every instruction set. When they are meant to change, put the printed hashes
+// here.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <utility>
+
+#include "app/pair/pair.h"
+#include "app/scene/build.h"
+#include "app/scene/file_access.h"
+#include "app/scene/stereo_settings.h"
+#include "core/hash.h"
+
+namespace obscura {
+namespace {
+
+template <class T>
+std::string hash_of(ImageView<const T> image) {
+    Hasher hasher;
+    hasher.value(image.width).value(image.height);
+    for (int y = 0; y < image.height; ++y)
+        hasher.bytes(image.row(y), static_cast<std::size_t>(image.width) * sizeof(T));
+    return hash_text(hasher.state);
+}
+
+std::string hashes(const Exec& exec) {
+    const std::filesystem::path file =
+        std::filesystem::path(OBSCURA_SOURCE_DIR) / "scenes/tests/stereo_pair.toml";
+    const SceneDocument document = read_scene(file, {});
+    const FileAccess access{document.folder, {}};
+    Scene scene = build_scene(document, access);
+    set_frame(scene, document, 1);
+    const StereoSettings settings = stereo_settings(document, scene, 1, access);
+    StereoCache cache;
+    StereoPair pair;
+    render_stereo_pair(scene, settings, {}, exec, cache, pair);
+    EXPECT_TRUE(pair.solution.report.converged);
+    EXPECT_GE(pair.realised.error.share(), 0.999);
+    return fmt::format("map {}, left {}, right {}", hash_of<float>(std::as_const(pair.optimised).view()),
+                       hash_of<Vec3f>(std::as_const(pair.eyes.left.radiance).view()),
+                       hash_of<Vec3f>(std::as_const(pair.eyes.right.radiance).view()));
+}
+
+TEST(StereoGolden, PairHasTheBitsThatItHad) {
+    const std::string expected = "map 26669127c144c28c, left adb4413f6173a33a, right 40b332814df8e6d5";
+    for (const Isa isa : supported_isas())
+        EXPECT_EQ(hashes({isa, 1}), expected) << isa_name(isa);
+    EXPECT_EQ(hashes({best_isa(), 3}), expected);
+}
+
+}  // namespace
+}  // namespace obscura

@@ -1,0 +1,224 @@
+#include "app/scene/obj_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "app/cli/info_command.h"
+#include "tests/core/temporary_folder.h"
+
+namespace obscura {
+namespace {
+
+ObjModel read(std::string_view obj, std::string_view mtl = "", const ObjOptions& options = {}) {
+    return obj_from_text(obj, mtl, Limits{}, options);
+}
+
+TEST(ObjFile, PositionsFacesAndRelativeIndices) {
+    const ObjModel model = read(
+        "v 0 0 0\nv 1 0 0\nv +1 1.5e0 -0\nv .5 2. 1e-400\n"
+        "f 1 2 3\nf -4 -2 -1\n");
+    ASSERT_EQ(model.mesh.triangles.size(), 2u);
+    ASSERT_EQ(model.mesh.positions.size(), 4u);
+    EXPECT_EQ(model.mesh.positions[2], (Vec3f{1, 1.5f, 0}));
+    EXPECT_EQ(model.mesh.positions[model.mesh.triangles[1].v[2]], (Vec3f{0.5f, 2, 0}));
+    EXPECT_EQ(model.mesh.normals.size(), model.mesh.positions.size());
+    EXPECT_EQ(model.materials.at(0).name, "default");
+    ASSERT_EQ(model.mesh.objects.size(), 1u);
+    EXPECT_EQ(model.mesh.objects[0].name, "text");
+}
+
+TEST(ObjFile, LineEndsMarksAndContinuations) {
+    const std::string plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const std::string variants[] = {
+        "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n",
+        "\xEF\xBB\xBF" + plain,
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",  // no end of the last line
+        "v 0 \\\n0 0\nv 1 0 \\\r\n 0\nv 0 1 0\nf 1 \\\n2 \\\n3\n",
+        "# a comment\nv 0 0 0 # at the origin\n\n   \nv\t1 0  0\nv 0 1 0 1.0\nf 1 2 3 # done\n",
+        "f 1 2 3\n" + plain.substr(0, 24),  // the face points ahead
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvp 0 0\nl 1 2\np 1\nlod 3\nf 1 2 3\n"};
+    const ObjModel expected = read(plain);
+    for (const std::string& text : variants) {
+        const ObjModel model = read(text);
+        EXPECT_EQ(model.mesh.positions, expected.mesh.positions) << text;
+        EXPECT_EQ(model.mesh.triangles, expected.mesh.triangles) << text;
+    }
+}
+
+TEST(ObjFile, CornersShareVerticesWhenAllIndicesAgree) {
+    const ObjModel model = read(
+        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+        "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5\n"
+        "vn 0 0 3\nvn 1 0 1\n"
+        "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/5/1 4/4/2\n");
+    ASSERT_EQ(model.mesh.positions.size(), 5u);  // corner 3 twice, for two texture coordinates
+    ASSERT_EQ(model.mesh.uvs.size(), 5u);
+    EXPECT_EQ(model.mesh.normals[0], (Vec3f{0, 0, 1})) << "made unit";
+    EXPECT_EQ(model.mesh.uvs[model.mesh.triangles[1].v[1]], (Vec2f{0.5f, 0}));
+    EXPECT_EQ(model.topology.by_index.open, 4u) << "the seam in uv is no open edge";
+    EXPECT_NEAR(model.mesh.normals[model.mesh.triangles[1].v[2]].x, std::sqrt(0.5f), 1e-6f);
+}
+
+TEST(ObjFile, MixedCornersFillTheGaps) {
+    const ObjModel model = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nvn 0 1 0\nf 1/1 2//1 3\n");
+    ASSERT_EQ(model.mesh.uvs.size(), 3u);
+    EXPECT_EQ(model.mesh.uvs[0], (Vec2f{1, 1}));
+    EXPECT_EQ(model.mesh.uvs[2], (Vec2f{0, 0}));
+    EXPECT_EQ(model.mesh.normals[1], (Vec3f{0, 1, 0}));
+    EXPECT_EQ(model.mesh.normals[2], (Vec3f{0, 0, 1})) << "computed";
+}
+
+TEST(ObjFile, ThreeHundredCornersAndConcavePolygons) {
+    std::ostringstream text;
+    for (int i = 0; i < 300; ++i) {
+        const double a = i * 2 * 3.14159265358979 / 300, r = i % 2 ? 1 : 2;
+        text << "v " << r * std::cos(a) << " " << r * std::sin(a) << " 5\n";
+    }
+    text << "f";
+    for (int i = 1; i <= 300; ++i)
+        text << " " << i;
+    const ObjModel model = read(text.str());
+    ASSERT_EQ(model.mesh.triangles.size(), 298u);
+    double area = 0;
+    for (const Triangle& t : model.mesh.triangles) {
+        const Vec3d a = to_double(model.mesh.positions[t.v[0]]), b = to_double(model.mesh.positions[t.v[1]]),
+                    c = to_double(model.mesh.positions[t.v[2]]);
+        const Vec3d n = cross(b - a, c - a);
+        EXPECT_GT(n.z, 0);
+        area += n.z / 2;
+    }
+    // Between a corner at radius 1 and one at 2 lies a triangle of area sin(360 / 300 degrees).
+    EXPECT_NEAR(area, 300 * std::sin(2 * 3.14159265358979 / 300), 1e-3);
+    EXPECT_EQ(model.mesh.faces.size(), 1u);
+}
+
+TEST(ObjFile, ObjectsGroupsAndSmoothing) {
+    const std::string roof = "v 0 0 0\nv 0 0 1\nv 1 1 0\nv -1 1 0\n";
+    const ObjModel objects =
+        read(roof + "o left wing\nf 1 2 3\no empty\no right\nf 2 1 4\no left wing\nf 1 3 2\n");
+    ASSERT_EQ(objects.mesh.objects.size(), 2u);
+    EXPECT_EQ(objects.mesh.objects[0].name, "left wing");
+    EXPECT_EQ(objects.mesh.object, (std::vector<std::uint32_t>{0, 1, 0}));
+    const ObjModel groups = read(roof + "g a\nf 1 2 3\ng b\nf 2 1 4\n");
+    ASSERT_EQ(groups.mesh.objects.size(), 2u);
+    EXPECT_EQ(groups.mesh.objects[1].name, "b");
+
+    // The ridge turns by 90 degrees: a crease unless a smoothing group says otherwise.
+    const auto vertices = [&](const std::string& s) {
+        return read(roof + s + "f 1 2 3\nf 2 1 4\n").mesh.positions.size();
+    };
+    EXPECT_EQ(vertices(""), 6u);
+    EXPECT_EQ(vertices("s 1\n"), 4u);
+    EXPECT_EQ(vertices("s off\n"), 6u);
+    ObjOptions wide;
+    wide.crease_angle_deg = 100;
+    EXPECT_EQ(read(roof + "f 1 2 3\nf 2 1 4\n", "", wide).mesh.positions.size(), 4u);
+}
+
+constexpr const char* triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST(ObjFile, MaterialsFromMtl) {
+    const std::string mtl =
+        "# comment\nKa_ignored\n\nnewmtl matte red\nKd 0.8 0.1 1.5\nKs 0 0 0\nNs 200\nillum 2\n"
+        "newmtl glossy\nKd .5\nKs 0.5 0.5 0.5\nNs 30\nmap_Kd -blendu on -bm 1 my wood.png\n"
+        "newmtl gold\nKd 0 0 0\nKs 1 0.8 0.3\nNs 510\nKe 1 2 3\n"
+        "newmtl pbr\nPr 0.25\nPm 0.5\nmap_Kd my wood.png\n"
+        "newmtl unused\nmap_Kd other.png\n";
+    const ObjModel model =
+        read(std::string("mtllib a.mtl\n") + triangle +
+                 "usemtl gold\nf 1 2 3\nusemtl matte red\nf 1 2 3\nusemtl glossy\nf 1 2 3\n"
+                 "usemtl pbr\nf 1 2 3\nusemtl gold\nf 1 2 3\n",
+             mtl);
+    ASSERT_EQ(model.materials.size(), 4u);
+    EXPECT_EQ(model.mesh.material, (std::vector<std::uint32_t>{0, 1, 2, 3, 0}));
+    const Material &gold = model.materials[0], &red = model.materials[1], &glossy = model.materials[2];
+    EXPECT_EQ(gold.base_color, (Vec3f{1, 0.8f, 0.3f}));
+    EXPECT_EQ(gold.metallic, 1.0f);
+    EXPECT_FLOAT_EQ(gold.roughness, 0.25f);  // alpha = sqrt(2 / 512) = 1/16
+    EXPECT_EQ(gold.emission, (Vec3f{1, 2, 3}));
+    EXPECT_EQ(red.name, "matte red");
+    EXPECT_EQ(red.base_color, (Vec3f{0.8f, 0.1f, 1}));
+    EXPECT_EQ(red.roughness, 1.0f);
+    EXPECT_EQ(red.texture, -1);
+    EXPECT_EQ(glossy.base_color, (Vec3f{0.5f, 0.5f, 0.5f}));
+    EXPECT_FLOAT_EQ(glossy.roughness, 0.5f);  // alpha = sqrt(2 / 32) = 1/4
+    EXPECT_EQ(glossy.metallic, 0.0f);
+    EXPECT_EQ(model.materials[3].roughness, 0.25f);
+    EXPECT_EQ(model.materials[3].metallic, 0.5f);
+    ASSERT_EQ(model.texture_files, (std::vector<std::string>{"my wood.png"}));
+    EXPECT_EQ(glossy.texture, 0);
+    EXPECT_EQ(model.materials[3].texture, 0);
+}
+
+TEST(ObjFile, FilesBesideTheFile) {
+    const TemporaryFolder folder;
+    folder.write("models/wood.png", "");
+    folder.write("models/lib/second one.mtl", "newmtl b\nmap_Kd ..\\wood.png\n");
+    folder.write("models/first.mtl", "newmtl a\nKd 1 0 0\n");
+    const auto file =
+        folder.write("models/house.obj", std::string("mtllib first.mtl\nmtllib lib/second one.mtl\n") +
+                                             triangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    const FileAccess access{folder.path, {}};
+    const ObjModel model = load_obj(file, access, Limits{});
+    ASSERT_EQ(model.materials.size(), 2u);
+    EXPECT_EQ(model.mesh.objects[0].name, "house");
+    EXPECT_EQ(model.texture_files, std::vector<std::string>{(folder.path / "models/wood.png").string()});
+
+    // Several names on one line.
+    folder.write("models/third.mtl", "newmtl b\n");
+    const auto both = folder.write("models/two.obj", std::string("mtllib first.mtl third.mtl\n") + triangle +
+                                                         "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
+    EXPECT_EQ(load_obj(both, access, Limits{}).materials[0].base_color, (Vec3f{1, 0, 0}));
+}
+
+TEST(ObjFile, AllowMissingNotesWhatIsMissing) {
+    const TemporaryFolder folder;
+    folder.write("have.mtl", "newmtl a\nmap_Kd gone.png\n");
+    const auto file = folder.write("x.obj", std::string("mtllib have.mtl\nmtllib gone.mtl\n") + triangle +
+                                                "usemtl a\nf 1 2 3\nusemtl nowhere\nf 1 2 3\n");
+    ObjOptions options;
+    options.allow_missing = true;
+    const ObjModel model = load_obj(file, FileAccess{folder.path, {}}, Limits{}, options);
+    ASSERT_EQ(model.missing.size(), 3u);
+    EXPECT_NE(model.missing[0].find("x.obj:2: mtllib gone.mtl"), std::string::npos) << model.missing[0];
+    EXPECT_NE(model.missing[1].find("have.mtl:2: map_Kd gone.png"), std::string::npos) << model.missing[1];
+    EXPECT_NE(model.missing[2].find("x.obj:8: material 'nowhere'"), std::string::npos) << model.missing[2];
+    EXPECT_EQ(model.materials.size(), 2u);
+    EXPECT_TRUE(model.texture_files.empty());
+}
+
+TEST(ObjFile, EmptyAndDegenerateModelsAreModels) {
+    EXPECT_TRUE(read("").mesh.triangles.empty());
+    EXPECT_TRUE(read("# nothing\nv 1 2 3\n").mesh.positions.empty());
+    const ObjModel flat = read("v 0 0 0\nv 1 1 1\nf 1 2 2\nf 1 2 1 2\n");
+    EXPECT_EQ(flat.topology.degenerate_triangles, 3u);
+    EXPECT_EQ(flat.mesh.triangles.size(), 3u);
+}
+
+TEST(InfoCommand, PrintsTheTable) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("tetra.obj",
+                                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 -2.5\n"
+                                   "f 1 2 3\nf 1 3 4\nf 1 4 2\nf 2 4 3\nf 1 1 2\n");
+    std::ostringstream out;
+    EXPECT_EQ(info_command({file, {}, false, {}}, out), 0);
+    EXPECT_EQ(out.str(), file.string() +
+                             "\n"
+                             "triangles             5\n"
+                             "vertices              4\n"
+                             "objects               1\n"
+                             "materials             1\n"
+                             "textures              0\n"
+                             "components            1 closed, 0 open\n"
+                             "  of the closed       0 with balanced multi-edges, 0 inside out\n"
+                             "edges, by index       0 without a partner, 0 with more than two faces\n"
+                             "edges, welded         0 without a partner, 0 with more than two faces\n"
+                             "degenerate triangles  1\n"
+                             "planar faces          4\n"
+                             "bounding box          (0, 0, -2.5) / (1, 1, 0)\n");
+}
+
+}  // namespace
+}  // namespace obscura
