@@ -8,9 +8,15 @@ namespace {
 
 std::string located(const std::string& file, int line, int column, const std::string& message) {
     std::string where = file;
-    if (line > 0) where += ":" + std::to_string(line);
-    if (line > 0 && column > 0) where += ":" + std::to_string(column);
-    return where.empty() ? message : where + ": " + message;
+    const auto append = [&](const char* separator, const std::string& text) {
+        where += separator;
+        where += text;
+    };
+    if (line > 0) append(":", std::to_string(line));
+    if (line > 0 && column > 0) append(":", std::to_string(column));
+    if (where.empty()) return message;
+    append(": ", message);
+    return where;
 }
 
 }  // namespace

@@ -11,6 +11,46 @@
 #   Kernels are always optimised, in Debug too: nothing of them may be left as a weak out-of-line symbol
 #   that the linker could hand to code that runs on a lesser machine.
 
+# obscura_precompile(TARGET KIND)
+#   lets TARGET start from headers that are parsed once (OBSCURA_PRECOMPILE): KIND is room, program, test or the
+#   instruction set of kernels. Only libraries' headers, and core/simd.h for kernels, so it opens no door in a wall;
+#   a build without them (House.includes_stand_alone) keeps every file's own includes complete.
+
+set(OBSCURA_LIBRARY_HEADERS <algorithm> <array> <atomic> <bit> <chrono> <cmath> <cstddef> <cstdint> <cstring>
+  <filesystem> <fstream> <functional> <limits> <map> <memory> <mutex> <numeric> <optional> <random> <set> <span>
+  <sstream> <string> <string_view> <tuple> <type_traits> <utility> <variant> <vector> <fmt/format.h>)
+
+function(obscura_precompile target kind)
+  if(NOT OBSCURA_PRECOMPILE)
+    return()
+  endif()
+  set(parsed obscura_parsed_for_${kind})
+  if(NOT TARGET ${parsed})
+    set(source ${CMAKE_BINARY_DIR}/parsed_for_${kind}.cpp)
+    file(CONFIGURE OUTPUT ${source} CONTENT "")
+    # Programs and libraries differ in -fPIE and -fPIC, and each wants its own kind of parsed headers.
+    if(kind STREQUAL test OR kind STREQUAL program)
+      file(CONFIGURE OUTPUT ${source} CONTENT "int main() {}\n")
+      add_executable(${parsed} ${source})
+    else()
+      add_library(${parsed} OBJECT ${source})
+    endif()
+    target_link_libraries(${parsed} PRIVATE obscura_flags)
+    if(kind MATCHES "^(room|program)$")
+      target_link_libraries(${parsed} PRIVATE fmt::fmt)
+      target_precompile_headers(${parsed} PRIVATE ${OBSCURA_LIBRARY_HEADERS})
+    elseif(kind STREQUAL test)
+      target_link_libraries(${parsed} PRIVATE fmt::fmt GTest::gtest)
+      target_precompile_headers(${parsed} PRIVATE ${OBSCURA_LIBRARY_HEADERS} <gtest/gtest.h>)
+    else()
+      obscura_kernel_options(${parsed} ${kind})
+      target_include_directories(${parsed} PRIVATE $<TARGET_PROPERTY:obscura_core,INTERFACE_INCLUDE_DIRECTORIES>)
+      target_precompile_headers(${parsed} PRIVATE <core/simd.h>)
+    endif()
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${parsed})
+endfunction()
+
 # The libraries of rooms: app/scene -> obscura_app_scene.
 function(obscura_libraries out)
   list(TRANSFORM ARGN REPLACE "/" "_" OUTPUT_VARIABLE names)
@@ -36,6 +76,7 @@ function(obscura_room room)
   add_library(${library} STATIC ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${library} PUBLIC ${window})
   target_link_libraries(${library} PUBLIC obscura_flags ${below} PRIVATE ${ARG_LIBS})
+  obscura_precompile(${library} room)
   set_property(GLOBAL APPEND PROPERTY OBSCURA_ROOMS ${room})
 endfunction()
 
@@ -43,6 +84,13 @@ set(OBSCURA_ISA_FLAGS_sse2 -msse2)
 set(OBSCURA_ISA_FLAGS_avx2 -mavx2 -mno-fma)
 set(OBSCURA_ISA_FLAGS_avx512bw -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx512vl
     -mprefer-vector-width=512)
+
+# g++ 12 takes the undefined upper halves inside its own AVX-512 headers for uninitialised reads.
+function(obscura_kernel_options target isa)
+  target_compile_definitions(${target} PRIVATE OBSCURA_ISA=${isa} OBSCURA_ISA_${isa}=1)
+  target_compile_options(${target} PRIVATE ${OBSCURA_ISA_FLAGS_${isa}} -O3 -DNDEBUG
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized> -fno-exceptions -fno-rtti)
+endfunction()
 
 function(add_simd_kernels room)
   obscura_libraries(library ${room})
@@ -52,11 +100,8 @@ function(add_simd_kernels room)
     target_link_libraries(${objects} PRIVATE obscura_flags)
     target_include_directories(${objects} PRIVATE
       $<TARGET_PROPERTY:${library},INTERFACE_INCLUDE_DIRECTORIES>)
-    target_compile_definitions(${objects} PRIVATE OBSCURA_ISA=${isa} OBSCURA_ISA_${isa}=1)
-    # g++ 12 takes the undefined upper halves inside its own AVX-512 headers for uninitialised reads.
-    target_compile_options(${objects} PRIVATE ${OBSCURA_ISA_FLAGS_${isa}} -O3 -DNDEBUG
-      $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized>
-      -fno-exceptions -fno-rtti)
+    obscura_kernel_options(${objects} ${isa})
+    obscura_precompile(${objects} ${isa})
     target_sources(${library} PRIVATE $<TARGET_OBJECTS:${objects}>)
     set_property(GLOBAL APPEND PROPERTY OBSCURA_KERNEL_OBJECTS $<TARGET_OBJECTS:${objects}>)
   endforeach()
