@@ -5,6 +5,7 @@
 
 #include "app/scene/obj_file.h"
 #include "core/error.h"
+#include "tests/fuzz/obj_peer.h"
 
 namespace obscura {
 namespace {
@@ -43,6 +44,8 @@ void try_obj(std::span<const std::uint8_t> bytes) {
     limits.triangles = 20'000;
     try {
         check_model(obj_from_text(text.substr(0, cut), mtl, limits));
+        const PeerResult peer = read_by_both(text.substr(0, cut), mtl, limits);
+        CHECK(peer.difference.empty(), peer.difference);
     } catch (const InputError&) {
     } catch (const LimitError&) {
     }

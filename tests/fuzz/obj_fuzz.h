@@ -8,7 +8,7 @@ namespace obscura {
 
 /// Reads `bytes` as an OBJ text and, behind the first NUL byte, the MTL text that every mtllib means. Ends
 /// quietly when the input is read or refused with an InputError or LimitError; checks what a read model
-/// promises.
+/// promises and that tinyobjloader reads the same.
 void try_obj(std::span<const std::uint8_t> bytes);
 
 }  // namespace obscura

@@ -32,7 +32,7 @@ check_doors() {
     door xsimd 'xsimd/' 'core/simd(_[a-z]+)?\.h'
     door stb 'stb/|stb_' 'core/image_io\.cpp'
     door toml++ 'toml\+\+/|toml\.hpp' 'app/scene_file[a-z_]*\.cpp'
-    door tinyobjloader 'tiny_obj' 'app/obj_file\.cpp'
+    door tinyobjloader 'tiny_obj' 'app/scene/obj_file\.cpp|tests/fuzz/obj_peer\.cpp'
     door CLI11 'CLI/|CLI11' 'app/(main|cli[a-z_]*)\.(cpp|h)'
     door GoogleTest 'g(test|mock)/' 'tests/.*'
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
@@ -121,6 +121,8 @@ self_test() {
     plant doors app/render.cpp '#include <toml++/toml.h>\n' found
     plant doors app/scene_file_parse.cpp '#include <toml++/toml.h>\n' clean
     plant doors core/mesh.cpp '#include <tiny_obj_loader.h>\n' found
+    plant doors tests/fuzz/obj_dialect.cpp '#include <tiny_obj_loader.h>\n' found
+    plant doors tests/fuzz/obj_peer.cpp '#include <tiny_obj_loader.h>\n' clean
     plant doors app/render.cpp '#include <CLI/CLI.hpp>\n' found
     plant doors core/a.cpp '#include <immintrin.h>\n' found
     plant includes raster/a.cpp '#include "../core/vec.h"\n' found

@@ -4,7 +4,6 @@
 
 #include <ostream>
 
-#include "app/cli/info_command.h"
 #include "app/scene/obj_file.h"
 #include "tests/core/temporary_folder.h"
 
