@@ -7,7 +7,7 @@
 #include <map>
 
 #include "bench/diffraction/report.h"
-#include "bench/harness/gnuplot.h"
+#include "bench/harness/panel_chart.h"
 
 namespace obscura {
 namespace {
@@ -71,6 +71,7 @@ std::string y_range(const std::vector<Panel>& panels) {
 
 PanelChart chart_of(const char* title, const char* note, std::vector<Panel> panels) {
     PanelChart chart;
+    chart.style_of = diffraction_style;
     chart.title = title;
     chart.note = note;
     chart.panels = std::move(panels);
@@ -109,7 +110,7 @@ PanelChart error_chart(const std::vector<DiffractionRow>& rows, const char* part
 
 }  // namespace
 
-std::optional<MethodStyle> diffraction_style(const std::string& method) {
+MethodStyle diffraction_style(const std::string& method) {
     static const std::map<std::string, MethodStyle> styles = {
         {automatic_name, {"#000000", 12, 13}},
         {"runs", {"#0072B2", 6, 7}},
@@ -131,14 +132,11 @@ std::optional<MethodStyle> diffraction_style(const std::string& method) {
         {fftw_near8_name, {"#E69F00", 8, 9}},
     };
     const auto found = styles.find(method);
-    return found == styles.end() ? std::nullopt : std::optional(found->second);
+    return found == styles.end() ? MethodStyle{"#009E73", 8, 9} : found->second;
 }
 
 void draw_diffraction_charts(const DiffractionResults& results, const BenchOptions& options) {
-    if (!has_gnuplot()) {
-        options.say("gnuplot is not installed (package gnuplot-nox): tables only, no charts");
-        return;
-    }
+    if (!can_draw(options)) return;
     const auto draw = [&](const PanelChart& chart, const char* file) {
         if (!chart.panels.empty()) run_gnuplot(panel_script(chart), options.out / file);
     };

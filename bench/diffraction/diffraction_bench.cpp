@@ -6,6 +6,7 @@
 
 #include "bench/diffraction/cases.h"
 #include "bench/diffraction/report.h"
+#include "bench/harness/report.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -43,9 +44,7 @@ std::vector<std::string> chosen_apertures(const BenchOptions& options) {
 
 int bench_diffraction(const BenchOptions& options) {
     const DiffractionBenchPlan plan = diffraction_bench_plan(options.quick, options.runs);
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw OutputError(fmt::format("{}: {}", options.out.string(), error.message()));
+    make_output_folder(options);
     DiffractionResults results;
     for (const auto measure : {measure_far, measure_windows, measure_near}) {
         for (DiffractionRow& row : measure(plan, options))

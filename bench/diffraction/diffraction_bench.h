@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/diffraction/results.h"
-#include "bench/raster/raster_bench.h"
+#include "bench/harness/options.h"
 
 namespace obscura {
 

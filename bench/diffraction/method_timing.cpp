@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/error.h"
@@ -83,12 +82,6 @@ std::vector<DiffractionRow> time_methods(const std::vector<int>& threads,
         all.insert(all.end(), rows.begin(), rows.end());
     }
     return all;
-}
-
-double milliseconds_of(const std::function<void()>& run) {
-    const auto start = std::chrono::steady_clock::now();
-    run();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace obscura

@@ -33,7 +33,4 @@ std::vector<DiffractionRow> time_methods(const std::vector<int>& threads,
                                          const std::function<std::vector<MethodJob>(std::size_t t)>& jobs_of,
                                          const DiffractionBenchPlan& plan, std::vector<MethodPast>& past);
 
-/// Wall-clock milliseconds of one call.
-double milliseconds_of(const std::function<void()>& run);
-
 }  // namespace obscura

@@ -10,6 +10,7 @@
 #include "core/error.h"
 #ifdef OBSCURA_HAS_FFTW
 #include "bench/diffraction/peers.h"
+#include "bench/harness/run_times.h"
 #endif
 
 namespace obscura {

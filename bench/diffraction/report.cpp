@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "bench/harness/machine.h"
-#include "core/file_output.h"
+#include "bench/harness/report.h"
 #ifdef OBSCURA_HAS_FFTW
 #include "bench/diffraction/peer_fftw.h"
 #endif
@@ -32,28 +32,12 @@ std::string decibel_cell(double value) {
     return value >= 0 ? fmt::format("{:.0f}", value) : std::string("-");
 }
 
-std::vector<int> thread_counts(const std::vector<DiffractionRow>& rows) {
-    std::vector<int> counts;
-    for (const DiffractionRow& row : rows) {
-        if (std::find(counts.begin(), counts.end(), row.threads) == counts.end())
-            counts.push_back(row.threads);
-    }
-    std::sort(counts.begin(), counts.end());
-    return counts;
-}
-
-std::string plural(int threads) {
-    return threads == 1 ? "1 thread" : fmt::format("{} threads", threads);
-}
-
-void write_machine(Out out) {
-    fmt::format_to(out, "\n## Machine\n\n| | |\n|---|---|\n");
-    for (const auto& [name, value] : describe_machine())
-        fmt::format_to(out, "| {} | {} |\n", name, value);
+/// Further lines for the table of the machine.
+std::vector<MachineLine> libraries() {
 #ifdef OBSCURA_HAS_FFTW
-    fmt::format_to(out, "| FFTW | {}, FFTW_MEASURE |\n", fftw_version());
+    return {{"FFTW", fftw_version() + ", FFTW_MEASURE"}};
 #else
-    fmt::format_to(out, "| FFTW | absent |\n");
+    return {{"FFTW", "absent"}};
 #endif
 }
 
@@ -63,7 +47,7 @@ void write_ratios(Out out, const std::vector<DiffractionRow>& rows, const std::s
     const std::vector<int> threads = thread_counts(rows);
     fmt::format_to(out, "| aperture | size | choice");
     for (const int count : threads) {
-        fmt::format_to(out, " | ms, {}", plural(count));
+        fmt::format_to(out, " | ms, {}", threads_text(count));
         for (const std::string& peer : peers)
             fmt::format_to(out, " | {} / ours", peer);
     }
@@ -93,7 +77,7 @@ void write_methods(Out out, const std::vector<DiffractionRow>& rows, const std::
     const std::vector<int> threads = thread_counts(rows);
     fmt::format_to(out, "\n| aperture | size | method");
     for (const int count : threads)
-        fmt::format_to(out, " | ms, {}", plural(count));
+        fmt::format_to(out, " | ms, {}", threads_text(count));
     fmt::format_to(out, " | amplitude error | log PSNR, dB | made before, ms |\n|---|--:|---");
     for (std::size_t i = 0; i < threads.size(); ++i)
         fmt::format_to(out, "|--:");
@@ -197,7 +181,7 @@ std::string diffraction_markdown(const DiffractionResults& results, const BenchO
                    "bench/README.md.\n\n",
                    options.runs);
     text += goals_markdown(results);
-    write_machine(out);
+    text += '\n' + machine_markdown(libraries());
     write_far(out, results.rows);
     write_part(out, results.rows, window_part,
                "\n## Windows of finer frequencies\n\n![chart](diffraction_window.svg)\n\nA square window, "
@@ -217,11 +201,8 @@ std::string diffraction_markdown(const DiffractionResults& results, const BenchO
 }
 
 void write_diffraction_report(const DiffractionResults& results, const BenchOptions& options) {
-    const auto write = [&](const char* name, const std::string& text) {
-        write_file_atomically(options.out / name, text, Existing::replace);
-    };
-    write("diffraction.csv", diffraction_csv(results.rows));
-    write("diffraction.md", diffraction_markdown(results, options));
+    write_files(options, {{"diffraction.csv", diffraction_csv(results.rows)},
+                          {"diffraction.md", diffraction_markdown(results, options)}});
 }
 
 }  // namespace obscura

@@ -2,13 +2,12 @@
 // Results of the diffraction bench as files: CSV for programs, Markdown for people, charts.
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/diffraction/results.h"
-#include "bench/harness/panel_chart.h"
-#include "bench/raster/raster_bench.h"
+#include "bench/harness/gnuplot.h"
+#include "bench/harness/options.h"
 
 namespace obscura {
 
@@ -30,8 +29,8 @@ std::string thesis_markdown(const DiffractionResults& results);
 std::string diffraction_csv(const std::vector<DiffractionRow>& rows);
 std::string diffraction_markdown(const DiffractionResults& results, const BenchOptions& options);
 
-/// Colour and point of a strategy or peer; nothing for other names.
-std::optional<MethodStyle> diffraction_style(const std::string& method);
+/// Colour and point of a method in every chart.
+MethodStyle diffraction_style(const std::string& method);
 
 /// Writes diffraction.md and diffraction.csv into options.out. Throws OutputError.
 void write_diffraction_report(const DiffractionResults& results, const BenchOptions& options);

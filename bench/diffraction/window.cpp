@@ -5,6 +5,7 @@
 #include "bench/diffraction/far_field_jobs.h"
 #ifdef OBSCURA_HAS_FFTW
 #include "bench/diffraction/peers.h"
+#include "bench/harness/run_times.h"
 #endif
 
 namespace obscura {

@@ -27,6 +27,13 @@ bool has_gnuplot() {
     return in_path("gnuplot");
 }
 
+bool can_draw(const BenchOptions& options, const char* what) {
+    const bool can = has_gnuplot();
+    if (!can)
+        options.say(fmt::format("gnuplot is not installed (package gnuplot-nox): tables only, no {}", what));
+    return can;
+}
+
 std::string gnuplot_text(const std::string& text) {
     std::string out = "'";
     for (const char c : text) {

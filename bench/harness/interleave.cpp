@@ -1,16 +1,11 @@
 #include "bench/harness/interleave.h"
 
 #include <algorithm>
-#include <chrono>
+
+#include "bench/harness/run_times.h"
 
 namespace obscura {
 namespace {
-
-double timed_ms(const std::function<void()>& run) {
-    const auto start = std::chrono::steady_clock::now();
-    run();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// What a job has taken so far.
 struct Clock {
@@ -23,7 +18,7 @@ void take_turn(const TimedJob& job, const TimingPlan& plan, Clock& clock) {
     if (is_short) job.run();
     double turn_ms = 0;
     do {
-        clock.runs_ms.push_back(timed_ms(job.run));
+        clock.runs_ms.push_back(milliseconds_of(job.run));
         turn_ms += clock.runs_ms.back();
     } while (is_short && turn_ms < plan.turn_ms);
     clock.spent_ms += turn_ms;
@@ -34,7 +29,7 @@ void take_turn(const TimedJob& job, const TimingPlan& plan, Clock& clock) {
 std::vector<Timing> time_interleaved(const std::vector<TimedJob>& jobs, const TimingPlan& plan) {
     std::vector<Clock> clocks(jobs.size());
     for (std::size_t i = 0; i < jobs.size(); ++i)
-        clocks[i].warm_up_ms = timed_ms(jobs[i].run);
+        clocks[i].warm_up_ms = milliseconds_of(jobs[i].run);
     for (int round = 0; round < plan.rounds; ++round) {
         for (std::size_t turn = 0; turn < jobs.size(); ++turn) {
             const std::size_t i = round % 2 == 0 ? turn : jobs.size() - 1 - turn;

@@ -55,9 +55,7 @@ std::string isas() {
     return text;
 }
 
-}  // namespace
-
-std::vector<std::pair<std::string, std::string>> describe_machine() {
+std::vector<MachineLine> describe_machine() {
     utsname system{};
     uname(&system);
 #ifdef __clang__
@@ -83,6 +81,17 @@ std::vector<std::pair<std::string, std::string>> describe_machine() {
         {"Compiler", fmt::format("{}, {}", compiler, build)},
         {"Date", fmt::format("{:%Y-%m-%d}", fmt::gmtime(std::time(nullptr)))},
     };
+}
+
+}  // namespace
+
+std::string machine_markdown(const std::vector<MachineLine>& more) {
+    std::vector<MachineLine> lines = describe_machine();
+    lines.insert(lines.end(), more.begin(), more.end());
+    std::string text = "## Machine\n\n| | |\n|---|---|\n";
+    for (const auto& [name, value] : lines)
+        text += fmt::format("| {} | {} |\n", name, value);
+    return text;
 }
 
 }  // namespace obscura

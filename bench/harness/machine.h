@@ -7,7 +7,11 @@
 
 namespace obscura {
 
-/// Pairs of heading and text: processor, cores, caches, instruction sets, memory, system, compiler, date.
-std::vector<std::pair<std::string, std::string>> describe_machine();
+/// Heading and text.
+using MachineLine = std::pair<std::string, std::string>;
+
+/// "## Machine" and a table: processor, cores, caches, instruction sets, memory, system, compiler, date, and
+/// `more`.
+std::string machine_markdown(const std::vector<MachineLine>& more);
 
 }  // namespace obscura

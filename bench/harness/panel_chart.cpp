@@ -5,10 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/diffraction/report.h"
-#include "bench/harness/gnuplot.h"
-#include "bench/shadows/report.h"
-#include "bench/stereo/report.h"
+#include "core/error.h"
 
 namespace obscura {
 namespace {
@@ -27,7 +24,8 @@ std::string chart_head(const PanelChart& chart, double width, double height) {
 }
 
 /// Data and the plot command of panel `i`.
-std::string panel_plot(const std::vector<PanelLine>& lines, std::size_t i) {
+std::string panel_plot(const PanelChart& chart, std::size_t i) {
+    const std::vector<PanelLine>& lines = chart.panels[i].lines;
     std::string data, plot;
     for (std::size_t l = 0; l < lines.size(); ++l) {
         const PanelLine& line = lines[l];
@@ -35,7 +33,7 @@ std::string panel_plot(const std::vector<PanelLine>& lines, std::size_t i) {
         for (const PanelPoint& p : line.points)
             data += fmt::format("{:.6g} {:.6g}\n", p.x, p.y);
         data += "EOD\n";
-        const MethodStyle style = method_style(line.method);
+        const MethodStyle style = chart.style_of(line.method);
         const std::string look = line.plain ? fmt::format("lines lw 1.6 dt {}", line.hollow ? 3 : 1)
                                             : fmt::format("linespoints lw 1.6 ps 0.7 pt {}",
                                                           line.hollow ? style.hollow : style.filled);
@@ -53,7 +51,7 @@ std::string key_strip(const PanelChart& chart, double bottom, double height) {
         for (const PanelLine& line : panel.lines) {
             if (std::find(names.begin(), names.end(), line.method) != names.end()) continue;
             names.push_back(line.method);
-            const MethodStyle style = method_style(line.method);
+            const MethodStyle style = chart.style_of(line.method);
             plot += fmt::format("{} NaN with linespoints lw 1.6 ps 0.8 pt {} lc rgb '{}' title {}",
                                 plot.empty() ? "plot [0:1] [0:1]" : ",", style.filled, style.color,
                                 gnuplot_text(line.method));
@@ -71,15 +69,8 @@ std::string key_strip(const PanelChart& chart, double bottom, double height) {
 
 }  // namespace
 
-MethodStyle method_style(const std::string& method) {
-    if (method == compressed_name) return {"#0072B2", 6, 7};
-    if (method == dense_name) return {"#D55E00", 4, 5};
-    if (const auto diffraction = diffraction_style(method)) return *diffraction;
-    if (const auto stereo = stereo_style(method)) return *stereo;
-    return {"#009E73", 8, 9};
-}
-
 std::string panel_script(const PanelChart& chart) {
+    CHECK(chart.style_of != nullptr);
     const auto count = static_cast<int>(chart.panels.size());
     const int columns = std::min(count, chart.columns), rows = (count + columns - 1) / columns;
     const double strip = chart.key_strip ? chart.key_height : 0;
@@ -100,16 +91,9 @@ std::string panel_script(const PanelChart& chart) {
         script += fmt::format("set xlabel {} offset 0,0.4\nset ylabel {} offset 1,0\n",
                               gnuplot_text(names_x ? chart.x_label : ""), gnuplot_text(y_label));
         if (chart.one_key && i == columns) script += "unset key\n";
-        script += panel_plot(panel.lines, static_cast<std::size_t>(i)) + "unset label\n";
+        script += panel_plot(chart, static_cast<std::size_t>(i)) + "unset label\n";
     }
     return script + "unset multiplot\n";
-}
-
-std::string size_tics() {
-    std::string tics = "set xtics (";
-    for (int size = 1024; size <= 1 << 20; size *= 4)
-        tics += fmt::format("{}'{}' {}", size == 1024 ? "" : ", ", size_name(size), size);
-    return tics + ")";
 }
 
 }  // namespace obscura

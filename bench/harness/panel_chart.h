@@ -4,14 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+#include "bench/harness/gnuplot.h"
 
-/// Okabe and Ito's colours and gnuplot's point types, as in the raster charts: ours are blue circles.
-struct MethodStyle {
-    const char* color;
-    int hollow, filled;
-};
-MethodStyle method_style(const std::string& method);
+namespace obscura {
 
 struct PanelPoint {
     double x, y;
@@ -34,6 +29,7 @@ struct Panel {
 
 /// Panels row by row, both axes logarithmic.
 struct PanelChart {
+    MethodStyle (*style_of)(const std::string& method) = nullptr;
     std::string title, note, x_label, y_label;
     std::string x_tics;  ///< gnuplot commands for the axis
     std::vector<Panel> panels;
@@ -47,8 +43,5 @@ struct PanelChart {
 
 /// The script that draws it, for run_gnuplot().
 std::string panel_script(const PanelChart& chart);
-
-/// gnuplot commands: texels a side from 1k to 1M.
-std::string size_tics();
 
 }  // namespace obscura

@@ -7,6 +7,8 @@
 #include <iterator>
 
 #include "bench/harness/gnuplot.h"
+#include "bench/harness/report.h"
+#include "bench/harness/run_times.h"
 #include "bench/raster/report.h"
 
 namespace obscura {
@@ -19,13 +21,7 @@ struct ChartLine {
     std::vector<const BenchRow*> rows;
 };
 
-/// Colour (Okabe and Ito's palette for every kind of colour vision) and gnuplot point types of a contestant.
-struct Style {
-    const char* color;
-    int hollow, filled;
-};
-
-Style style_of(const std::string& contestant) {
+MethodStyle style_of(const std::string& contestant) {
     if (contestant == our_name) return {"#0072B2", 6, 7};
     if (contestant == "llvmpipe") return {"#D55E00", 4, 5};
     if (contestant == "Embree") return {"#009E73", 8, 9};
@@ -34,7 +30,7 @@ Style style_of(const std::string& contestant) {
 
 std::vector<ChartLine> lines_of(const std::vector<BenchRow>& rows, Workload workload) {
     std::vector<ChartLine> lines;
-    for (const std::string& scene : scenes_of(rows)) {
+    for (const std::string& scene : distinct(rows, &BenchRow::scene)) {
         bool headed = false;
         for (const BenchRow& row : rows) {
             if (row.scene != scene || row.workload != workload || row.runs_ms.empty()) continue;
@@ -112,7 +108,7 @@ void add_points(std::string& script, const std::vector<ChartLine>& lines, const 
                 }
             }
             script += "EOD\n";
-            const Style style = style_of(contestants[c]);
+            const MethodStyle style = style_of(contestants[c]);
             plot += fmt::format(
                 "{} $points_{}_{} using 1:2:3:4 with xerrorbars lw 1.4 ps 0.8 pt {} lc rgb '{}' notitle",
                 plot.empty() ? "plot" : ",", c, t, t == 0 && threads.size() > 1 ? style.hollow : style.filled,
@@ -195,10 +191,7 @@ std::string chart_script(const std::vector<BenchRow>& rows, Workload workload, c
 }
 
 void draw_charts(const std::vector<BenchRow>& rows, const BenchOptions& options) {
-    if (!has_gnuplot()) {
-        options.say("gnuplot is not installed (package gnuplot-nox): tables only, no charts");
-        return;
-    }
+    if (!can_draw(options)) return;
     for (const Workload workload : all_workloads) {
         const std::string script = chart_script(rows, workload, options);
         if (script.empty()) continue;

@@ -3,15 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <map>
 #include <memory>
-#include <thread>
 
+#include "bench/harness/worker.h"
 #include "bench/raster/agreement.h"
 #include "bench/raster/raster_bench.h"
-#include "bench/raster/worker.h"
-#include "core/error.h"
 
 namespace obscura {
 namespace {
@@ -92,8 +88,6 @@ bool run_once(Field& field, const Slot& slot, bool keep_time) {
         }
         return false;
     }
-    // Let spinning threads of the one who just ran go to sleep before the next is on the clock.
-    std::this_thread::sleep_for(std::chrono::milliseconds(3));
     return true;
 }
 
@@ -112,13 +106,6 @@ void check_agreement(Field& field, const Slot& slot, const BenchScene& scene, co
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-    CHECK(!values.empty());
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 std::vector<BenchRow> measure_scene(const std::vector<Contestant>& contestants, const BenchScene& scene,
                                     const BenchOptions& options) {

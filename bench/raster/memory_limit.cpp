@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "bench/raster/workloads.h"
 #include "core/parallel.h"
 
 namespace obscura {

@@ -1,7 +1,7 @@
 #pragma once
 // What the machine itself allows: writing a result of the workload's size, without computing anything.
 
-#include "bench/raster/contestant.h"
+#include "bench/harness/contestant.h"
 
 namespace obscura {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Obscura's own rasterizer as a contestant.
 
-#include "bench/raster/contestant.h"
+#include "bench/harness/contestant.h"
 
 namespace obscura {
 

@@ -4,14 +4,11 @@
 
 #include "bench/raster/peer_embree.h"
 
-#include <embree3/rtcore.h>
-#include <fmt/format.h>
-
-#include <atomic>
-#include <chrono>
 #include <cstring>
-#include <stdexcept>
+#include <optional>
 
+#include "bench/embree/embree_scene.h"
+#include "bench/harness/run_times.h"
 #include "bench/raster/phong_scene.h"
 #include "bench/raster/views.h"
 #include "core/image.h"
@@ -27,56 +24,19 @@ constexpr float nothing = 1.0f;
 struct EmbreeState {
     const BenchScene* bench = nullptr;
     Exec exec;
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;           ///< for plain rays
-    RTCScene filtered_scene = nullptr;  ///< the same mesh, for rays with a filter
+    EmbreeDevice device;
+    std::optional<EmbreeScene> scene;           ///< for plain rays
+    std::optional<EmbreeScene> filtered_scene;  ///< the same mesh, for rays with a filter
     RayGrid light_rays, camera_rays;
     std::vector<float> normals;
     PhongScene phong;
     const PhongKernels* kernels = nullptr;
     Image<float> first, second;
     Image<Vec3f> frame;
-    std::atomic<std::int64_t> bytes{0};
 
-    EmbreeState() = default;
-    EmbreeState(const EmbreeState&) = delete;
-    EmbreeState& operator=(const EmbreeState&) = delete;
-    ~EmbreeState() {
-        if (scene != nullptr) rtcReleaseScene(scene);
-        if (filtered_scene != nullptr) rtcReleaseScene(filtered_scene);
-        if (device != nullptr) rtcReleaseDevice(device);
-    }
+    EmbreeState(const BenchScene& bench_, const Exec& exec_)
+        : bench(&bench_), exec(exec_), device(exec_.threads) {}
 };
-
-void check_device(RTCDevice device) {
-    const RTCError error = rtcGetDeviceError(device);
-    if (error != RTC_ERROR_NONE)
-        throw std::runtime_error(fmt::format("Embree error {}", static_cast<int>(error)));
-}
-
-bool count_bytes(void* state, ssize_t bytes, bool) {
-    static_cast<EmbreeState*>(state)->bytes += bytes;
-    return true;
-}
-
-template <class T>
-void upload(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<T>& values) {
-    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size());
-    std::memcpy(buffer, values.data(), values.size() * sizeof(T));
-}
-
-RTCScene build_scene(RTCDevice device, const Mesh& mesh, RTCSceneFlags flags) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    upload(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions);
-    upload(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
-    rtcCommitGeometry(geometry);
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, flags);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    return scene;
-}
 
 /// A packet of rays and which of its lanes lie inside the picture.
 struct Packet {
@@ -114,13 +74,6 @@ void aim(Packet& p, const RayGrid& grid, int x0, int y0, int width, int height) 
     }
 }
 
-RTCIntersectContext coherent_context() {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return context;
-}
-
 /// Writes 16 lanes to their texels.
 void store(Image<float>& map, int x0, int y0, const float* values) {
     for (int i = 0; i < 16; ++i) {
@@ -145,7 +98,7 @@ void trace_depth(EmbreeState& state) {
         Packet p;
         aim(p, state.light_rays, x0, y0, map.width, map.height);
         RTCIntersectContext context = coherent_context();
-        rtcIntersect16(p.valid, state.scene, &context, &p.rays);
+        rtcIntersect16(p.valid, state.scene->handle(), &context, &p.rays);
         store(map, x0, y0, p.rays.ray.tfar);
     });
 }
@@ -157,7 +110,7 @@ void trace_dual_restart(EmbreeState& state) {
         Packet p;
         aim(p, state.light_rays, x0, y0, width, height);
         RTCIntersectContext context = coherent_context();
-        rtcIntersect16(p.valid, state.scene, &context, &p.rays);
+        rtcIntersect16(p.valid, state.scene->handle(), &context, &p.rays);
         store(state.first, x0, y0, p.rays.ray.tfar);
         for (int i = 0; i < 16; ++i) {
             const bool hit = p.rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
@@ -166,7 +119,7 @@ void trace_dual_restart(EmbreeState& state) {
             p.rays.ray.tfar[i] = nothing;
             p.rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         }
-        rtcIntersect16(p.valid, state.scene, &context, &p.rays);
+        rtcIntersect16(p.valid, state.scene->handle(), &context, &p.rays);
         store(state.second, x0, y0, p.rays.ray.tfar);
     });
 }
@@ -207,7 +160,7 @@ void trace_dual_filter(EmbreeState& state) {
         two.base.filter = keep_two_hits;
         for (int i = 0; i < 16; ++i)
             two.first[i] = two.second[i] = nothing;
-        rtcIntersect16(p.valid, state.filtered_scene, &two.base, &p.rays);
+        rtcIntersect16(p.valid, state.filtered_scene->handle(), &two.base, &p.rays);
         store(state.first, x0, y0, two.first);
         store(state.second, x0, y0, two.second);
     });
@@ -233,7 +186,7 @@ void trace_shadows(const EmbreeState& state, PhongPacket& phong) {
         valid[i] = phong.n_dot_l[i] > 0.0f ? -1 : 0;
     }
     RTCIntersectContext context = coherent_context();
-    rtcOccluded16(valid, state.scene, &context, &rays);
+    rtcOccluded16(valid, state.scene->handle(), &context, &rays);
     // Embree marks an occluded ray by tfar = -inf.
     for (int i = 0; i < 16; ++i)
         phong.lit[i] = rays.tfar[i] < 0.0f ? 0.0f : 1.0f;
@@ -247,7 +200,7 @@ void trace_frame(EmbreeState& state) {
         for (float& tfar : p.rays.ray.tfar)
             tfar = 1e30f;
         RTCIntersectContext context = coherent_context();
-        rtcIntersect16(p.valid, state.scene, &context, &p.rays);
+        rtcIntersect16(p.valid, state.scene->handle(), &context, &p.rays);
 
         PhongPacket phong;
         std::memcpy(phong.dir_x, p.rays.ray.dir_x, sizeof phong.dir_x);
@@ -308,25 +261,19 @@ std::vector<Job> jobs_of(EmbreeState& s) {
 }
 
 Session open_embree(const BenchScene& bench, const Exec& exec) {
-    const auto state = std::make_shared<EmbreeState>();
-    state->bench = &bench;
-    state->exec = exec;
-    state->device = rtcNewDevice(fmt::format("threads={}", exec.threads).c_str());
-    if (state->device == nullptr) throw std::runtime_error("Embree cannot create a device");
-    rtcSetDeviceMemoryMonitorFunction(state->device, count_bytes, state.get());
-
-    const auto start = std::chrono::steady_clock::now();
-    state->scene = build_scene(state->device, bench.scene.mesh, RTC_SCENE_FLAG_NONE);
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-    const std::int64_t bytes = state->bytes;
-    state->filtered_scene =
-        build_scene(state->device, bench.scene.mesh, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-    check_device(state->device);
+    const auto state = std::make_shared<EmbreeState>(bench, exec);
+    const Mesh& mesh = bench.scene.mesh;
+    Session session;
+    session.version = state->device.version();
+    session.prepare_ms =
+        milliseconds_of([&] { state->scene.emplace(state->device, mesh, RTC_SCENE_FLAG_NONE); });
+    session.prepare_mib = state->device.mib();
+    state->filtered_scene.emplace(state->device, mesh, RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
 
     const RenderSettings& render = bench.scene.render;
     state->light_rays = rays_of(bench.light);
     state->camera_rays = rays_of(bench.scene.camera, render.width, render.height);
-    state->normals = corner_normals(bench.scene.mesh);
+    state->normals = corner_normals(mesh);
     state->phong = phong_constants(bench);
     state->phong.normals = state->normals.data();
     state->kernels = kernels_for(exec.isa);
@@ -334,13 +281,6 @@ Session open_embree(const BenchScene& bench, const Exec& exec) {
     state->second = Image<float>(bench.light.width, bench.light.height);
     state->frame = Image<Vec3f>(render.width, render.height);
 
-    const auto property = [&](RTCDeviceProperty p) { return rtcGetDeviceProperty(state->device, p); };
-    Session session;
-    session.version =
-        fmt::format("Embree {}.{}.{}", property(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-                    property(RTC_DEVICE_PROPERTY_VERSION_MINOR), property(RTC_DEVICE_PROPERTY_VERSION_PATCH));
-    session.prepare_ms = elapsed.count();
-    session.prepare_mib = static_cast<double>(bytes) / (1 << 20);
     session.jobs = jobs_of(*state);
     session.state = state;
     return session;

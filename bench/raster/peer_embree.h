@@ -1,7 +1,7 @@
 #pragma once
 // Embree 3 as a peer: the ray tracer that CPU renderers use today.
 
-#include "bench/raster/contestant.h"
+#include "bench/harness/contestant.h"
 
 namespace obscura {
 

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 
+#include "bench/harness/run_times.h"
 #include "bench/raster/gl_api.h"
 #include "bench/raster/phong_scene.h"
 #include "bench/raster/views.h"
@@ -323,9 +323,7 @@ Session open_llvmpipe(const BenchScene& bench, const Exec& exec) {
     open_gl(state->context);
     const GlApi& gl = state->context.gl;
 
-    const auto start = std::chrono::steady_clock::now();
-    upload_mesh(*state, bench.scene.mesh);
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    const double upload_ms = milliseconds_of([&] { upload_mesh(*state, bench.scene.mesh); });
 
     state->depth_program = link(gl, depth_vertex, depth_fragment);
     state->peel_program = link(gl, depth_vertex, peel_fragment);
@@ -352,7 +350,7 @@ Session open_llvmpipe(const BenchScene& bench, const Exec& exec) {
     const auto text = [&](GLenum name) { return reinterpret_cast<const char*>(gl.GetString(name)); };
     Session session;
     session.version = fmt::format("{}, OpenGL {}", text(GL_RENDERER), text(GL_VERSION));
-    session.prepare_ms = elapsed.count();
+    session.prepare_ms = upload_ms;
     session.jobs = jobs_of(*state);
     session.state = state;
     return session;

@@ -2,7 +2,7 @@
 // llvmpipe (Mesa's software OpenGL, through OSMesa) as a peer: the rasterizer that CPU-only machines use
 // today.
 
-#include "bench/raster/contestant.h"
+#include "bench/harness/contestant.h"
 
 namespace obscura {
 

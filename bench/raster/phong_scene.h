@@ -1,8 +1,8 @@
 #pragma once
 // The shading constants that both peers use for a bench scene's frame.
 
+#include "bench/harness/stage.h"
 #include "bench/raster/phong.h"
-#include "bench/raster/stage.h"
 
 namespace obscura {
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "bench/harness/recipes.h"
+#include "bench/harness/report.h"
+#include "bench/harness/run_times.h"
 #include "bench/raster/charts.h"
 #include "bench/raster/report.h"
 #include "core/error.h"

@@ -1,27 +1,15 @@
 #pragma once
 // `obscura bench raster`: ours against llvmpipe and Embree in one run on one machine.
 
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/raster/contestant.h"
+#include "bench/harness/contestant.h"
+#include "bench/harness/options.h"
+#include "bench/raster/workloads.h"
 
 namespace obscura {
-
-struct BenchOptions {
-    std::filesystem::path out = "bench/results";
-    std::optional<std::filesystem::path>
-        data;      ///< folder with meshes/bunny.obj; without it those scenes are left out
-    int runs = 7;  ///< timed runs of each job, after one warm-up
-    std::vector<int> threads = {1, 2};
-    bool quick = false;  ///< small pictures, the small city only: a check, not a measurement
-    std::string scene;   ///< only scenes whose name contains this
-    std::function<void(const std::string&)> say = [](const std::string&) {
-    };  ///< one line of progress or result
-};
 
 /// How a job's result relates to the reference (the first contestant that delivers this workload).
 struct Agreement {
@@ -46,8 +34,6 @@ struct BenchRow {
     std::optional<Agreement> agreement;
     std::string problem;  ///< why there are no times: absent or failed
 };
-
-double median(std::vector<double> values);
 
 /// Measures every contestant on one scene: interleaved runs, order reversed every other time.
 std::vector<BenchRow> measure_scene(const std::vector<Contestant>& contestants, const BenchScene& scene,

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "bench/harness/machine.h"
-#include "core/error.h"
-#include "core/file_output.h"
+#include "bench/harness/report.h"
+#include "bench/harness/run_times.h"
 
 namespace obscura {
 namespace {
@@ -25,27 +25,8 @@ std::string field(const std::string& text) {
     return quoted + '"';
 }
 
-double least(const BenchRow& row) {
-    return *std::min_element(row.runs_ms.begin(), row.runs_ms.end());
-}
-double greatest(const BenchRow& row) {
-    return *std::max_element(row.runs_ms.begin(), row.runs_ms.end());
-}
-
-std::string time_text(const BenchRow& row) {
-    return row.runs_ms.empty()
-               ? "-"
-               : fmt::format("{:.1f} ({:.1f} to {:.1f})", median(row.runs_ms), least(row), greatest(row));
-}
-
 std::string ratio_text(std::optional<double> ratio) {
     return ratio ? fmt::format("{:.2f}", *ratio) : "-";
-}
-
-void write_machine(Out out) {
-    fmt::format_to(out, "## Machine\n\n| | |\n|---|---|\n");
-    for (const auto& [name, value] : describe_machine())
-        fmt::format_to(out, "| {} | {} |\n", name, value);
 }
 
 void write_contestants(Out out, const std::vector<BenchRow>& rows) {
@@ -71,15 +52,15 @@ void write_headline(Out out, const std::vector<BenchRow>& rows, const BenchOptio
     const auto ours = [](const BenchRow& row) { return row.contestant == our_name; };
     const auto peers = [](const BenchRow& row) { return row.contestant != our_name; };
     for (const Workload workload : all_workloads) {
-        for (const std::string& scene : scenes_of(rows)) {
+        for (const std::string& scene : distinct(rows, &BenchRow::scene)) {
             for (const int threads : options.threads) {
                 const BenchRow* our = fastest(rows, scene, workload, threads, ours);
                 const BenchRow* peer = fastest(rows, scene, workload, threads, peers);
                 if (our == nullptr && peer == nullptr) continue;
                 fmt::format_to(out, "| {} | {} | {} | {} | {} | {} | **{}** |\n", workload_name(workload),
-                               scene, threads, our != nullptr ? time_text(*our) : "-",
+                               scene, threads, our != nullptr ? range_text(our->runs_ms, 1) : "-",
                                peer != nullptr ? fmt::format("{}, {}", peer->contestant, peer->method) : "-",
-                               peer != nullptr ? time_text(*peer) : "-",
+                               peer != nullptr ? range_text(peer->runs_ms, 1) : "-",
                                peer != nullptr ? ratio_text(ratio_to_ours(rows, *peer)) : "-");
             }
         }
@@ -100,8 +81,8 @@ void write_times(Out out, const std::vector<BenchRow>& rows, Workload workload) 
             titled = true;
         }
         fmt::format_to(out, "| {} | {} | {} | {}{} | {} | {} | {} | {:.1f} |\n", row.scene, row.triangles,
-                       row.contestant, row.method, row.same_work ? "" : " *", row.threads, time_text(row),
-                       ratio_text(ratio_to_ours(rows, row)), row.prepare_ms);
+                       row.contestant, row.method, row.same_work ? "" : " *", row.threads,
+                       range_text(row.runs_ms, 1), ratio_text(ratio_to_ours(rows, row)), row.prepare_ms);
     }
     if (titled) fmt::format_to(out, "\n\\* not the whole work, or another result: see bench/README.md.\n");
 }
@@ -127,14 +108,6 @@ void write_agreement(Out out, const std::vector<BenchRow>& rows) {
 }
 
 }  // namespace
-
-std::vector<std::string> scenes_of(const std::vector<BenchRow>& rows) {
-    std::vector<std::string> scenes;
-    for (const BenchRow& row : rows) {
-        if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end()) scenes.push_back(row.scene);
-    }
-    return scenes;
-}
 
 std::string workload_title(const BenchRow& row) {
     const std::string size = fmt::format(", {} x {}", row.width, row.height);
@@ -183,11 +156,7 @@ std::string summary_csv(const std::vector<BenchRow>& rows) {
         fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},", field(row.scene), row.triangles,
                        workload_name(row.workload), row.width, row.height, field(row.contestant),
                        field(row.method), row.same_work ? 1 : 0, row.threads, row.runs_ms.size());
-        if (row.runs_ms.empty()) {
-            fmt::format_to(out, ",,,");
-        } else {
-            fmt::format_to(out, "{:.4f},{:.4f},{:.4f},", median(row.runs_ms), least(row), greatest(row));
-        }
+        text += range_fields(row.runs_ms);
         const std::optional<double> ratio = ratio_to_ours(rows, row);
         fmt::format_to(out, "{},{:.3f},{:.2f},", ratio ? fmt::format("{:.4f}", *ratio) : "", row.prepare_ms,
                        row.prepare_mib);
@@ -225,7 +194,7 @@ std::string report_markdown(const std::vector<BenchRow>& rows, const BenchOption
                    "Medians of {} interleaved runs. What is measured, and what each peer is asked to do: "
                    "bench/README.md.\n\n",
                    options.runs);
-    write_machine(out);
+    text += machine_markdown({});
     write_contestants(out, rows);
     write_headline(out, rows, options);
     for (const Workload workload : all_workloads)
@@ -235,12 +204,10 @@ std::string report_markdown(const std::vector<BenchRow>& rows, const BenchOption
 }
 
 void write_report(const std::vector<BenchRow>& rows, const BenchOptions& options) {
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw OutputError(fmt::format("{}: {}", options.out.string(), error.message()));
-    write_file_atomically(options.out / "raster.csv", summary_csv(rows), Existing::replace);
-    write_file_atomically(options.out / "raster_runs.csv", runs_csv(rows), Existing::replace);
-    write_file_atomically(options.out / "raster.md", report_markdown(rows, options), Existing::replace);
+    make_output_folder(options);
+    write_files(options, {{"raster.csv", summary_csv(rows)},
+                          {"raster_runs.csv", runs_csv(rows)},
+                          {"raster.md", report_markdown(rows, options)}});
 }
 
 }  // namespace obscura

@@ -1,15 +1,14 @@
 #pragma once
 // Results as files: CSV for programs, Markdown for people.
 
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "bench/raster/raster_bench.h"
 
 namespace obscura {
-
-/// Name that our rows carry.
-inline constexpr const char* our_name = "Obscura";
-
-/// Scenes in the order of their first row.
-std::vector<std::string> scenes_of(const std::vector<BenchRow>& rows);
 
 /// Heading of a row's workload, with its size.
 std::string workload_title(const BenchRow& row);

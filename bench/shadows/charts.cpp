@@ -6,27 +6,20 @@
 
 #include "bench/harness/gnuplot.h"
 #include "bench/harness/panel_chart.h"
+#include "bench/harness/report.h"
 #include "bench/shadows/report.h"
 #include "bench/shadows/summary.h"
 
 namespace obscura {
 namespace {
 
-template <class Row>
-std::vector<std::string> scenes_in(const std::vector<Row>& rows) {
-    std::vector<std::string> scenes;
-    for (const Row& row : rows) {
-        if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end()) scenes.push_back(row.scene);
-    }
-    return scenes;
-}
-
 /// A panel per scene; `x_of` picks the abscissa of a row.
 PanelChart accuracy_chart(const std::vector<AccuracyRow>& rows,
                           const std::function<double(const AccuracyRow&)>& x_of) {
     PanelChart chart;
+    chart.style_of = shadow_style;
     chart.y_label = "wrong pixels, %";
-    for (const std::string& scene : scenes_in(rows)) {
+    for (const std::string& scene : distinct(rows, &AccuracyRow::scene)) {
         std::vector<PanelLine> lines;
         for (const AccuracyRow& row : rows) {
             if (row.scene != scene || row.wrong.wrong == 0 || row.size == 0) continue;
@@ -40,13 +33,14 @@ PanelChart accuracy_chart(const std::vector<AccuracyRow>& rows,
 
 PanelChart tree_chart(const std::vector<SizeRow>& rows) {
     PanelChart chart;
+    chart.style_of = shadow_style;
     chart.title = "Memory of trees and of dense maps";
     chart.key = "top left";
     chart.note = "Four bytes per texel of dense maps; both axes logarithmic.";
     chart.x_label = "texels a side";
     chart.y_label = "MB";
     chart.x_tics = size_tics();
-    for (const std::string& scene : scenes_in(rows)) {
+    for (const std::string& scene : distinct(rows, &SizeRow::scene)) {
         PanelLine tree{compressed_name, {}}, dense{dense_name, {}};
         for (const SizeRow& row : rows) {
             if (row.scene != scene || !row.problem.empty()) continue;
@@ -67,7 +61,7 @@ struct RateLine {
 
 std::vector<RateLine> rate_lines(const std::vector<TimeRow>& rows) {
     std::vector<RateLine> lines;
-    for (const std::string& scene : scenes_in(rows)) {
+    for (const std::string& scene : distinct(rows, &TimeRow::scene)) {
         lines.push_back({scene, "", {}});
         const auto first = static_cast<std::ptrdiff_t>(lines.size());
         for (const TimeRow& row : rows) {
@@ -107,7 +101,7 @@ std::string lookup_script(const std::vector<TimeRow>& rows) {
     std::string script = lookup_frame(lines.size()), plot;
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const bool heading = lines[i].rows.empty();
-        const MethodStyle style = method_style(lines[i].method);
+        const MethodStyle style = shadow_style(lines[i].method);
         script += fmt::format("set label {} at screen {}, first {} {} tc rgb '{}'{}\n",
                               gnuplot_text(lines[i].label), heading ? 0.02 : 0.29, i + 1,
                               heading ? "left" : "right", heading ? "#000000" : style.color,
@@ -125,11 +119,21 @@ std::string lookup_script(const std::vector<TimeRow>& rows) {
 
 }  // namespace
 
+MethodStyle shadow_style(const std::string& method) {
+    if (method == compressed_name) return {"#0072B2", 6, 7};
+    if (method == dense_name) return {"#D55E00", 4, 5};
+    return {"#009E73", 8, 9};
+}
+
+std::string size_tics() {
+    std::string tics = "set xtics (";
+    for (int size = 1024; size <= 1 << 20; size *= 4)
+        tics += fmt::format("{}'{}' {}", size == 1024 ? "" : ", ", size_name(size), size);
+    return tics + ")";
+}
+
 void draw_shadow_charts(const ShadowResults& results, const BenchOptions& options) {
-    if (!has_gnuplot()) {
-        options.say("gnuplot is not installed (package gnuplot-nox): tables only, no charts");
-        return;
-    }
+    if (!can_draw(options)) return;
     const PanelChart summary = summary_chart(results);
     if (!summary.panels.empty()) run_gnuplot(panel_script(summary), options.out / "shadows_summary.svg");
     PanelChart by_size = accuracy_chart(results.accuracy,

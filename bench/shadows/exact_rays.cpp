@@ -1,25 +1,22 @@
 #include "bench/shadows/exact_rays.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <stdexcept>
 
+#include "bench/embree/embree_scene.h"
 #include "core/parallel.h"
 
 namespace obscura {
 
 struct ExactRays::Scene {
-    const Mesh* mesh = nullptr;
+    const Mesh& mesh;
     double ulp = 0;  ///< unit in the last place of the largest coordinate, metres
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-    ~Scene() {
-        if (scene != nullptr) rtcReleaseScene(scene);
-        if (device != nullptr) rtcReleaseDevice(device);
-    }
+    EmbreeDevice device{0};
+    EmbreeScene embree{
+        device, mesh,
+        static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION)};
+
+    explicit Scene(const Mesh& mesh_) : mesh(mesh_) {}
 };
 
 namespace {
@@ -56,32 +53,13 @@ void ignore_own_surface(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-template <class T>
-void upload(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<T>& values) {
-    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size());
-    std::memcpy(buffer, values.data(), values.size() * sizeof(T));
-}
-
 }  // namespace
 
-ExactRays::ExactRays(const Mesh& mesh) : scene_(std::make_unique<Scene>()) {
-    scene_->mesh = &mesh;
+ExactRays::ExactRays(const Mesh& mesh) : scene_(std::make_unique<Scene>(mesh)) {
     float largest = 0;
     for (const Vec3f& p : mesh.positions)
         largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     scene_->ulp = static_cast<double>(largest) * 0x1p-23;
-    scene_->device = rtcNewDevice(nullptr);
-    if (scene_->device == nullptr) throw std::runtime_error("Embree cannot create a device");
-    RTCGeometry geometry = rtcNewGeometry(scene_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    upload(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions);
-    upload(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
-    rtcCommitGeometry(geometry);
-    scene_->scene = rtcNewScene(scene_->device);
-    rtcSetSceneFlags(scene_->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
-    rtcAttachGeometry(scene_->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene_->scene);
-    if (rtcGetDeviceError(scene_->device) != RTC_ERROR_NONE) throw std::runtime_error("Embree failed");
 }
 
 ExactRays::~ExactRays() = default;
@@ -90,7 +68,7 @@ bool ExactRays::occluded(Vec3d point, std::uint32_t face, Vec3d to_light) const 
     RayContext context;
     rtcInitIntersectContext(&context.base);
     context.base.filter = ignore_own_surface;
-    context.mesh = scene_->mesh;
+    context.mesh = &scene_->mesh;
     context.ulp = scene_->ulp;
     context.point = point;
     context.direction = to_light;
@@ -106,7 +84,7 @@ bool ExactRays::occluded(Vec3d point, std::uint32_t face, Vec3d to_light) const 
     ray.tnear = 0;
     ray.tfar = 1e30f;
     ray.mask = ~0u;
-    rtcOccluded1(scene_->scene, &context.base, &ray);
+    rtcOccluded1(scene_->embree.handle(), &context.base, &ray);
     return ray.tfar < 0;  // Embree's mark of an occluded ray
 }
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/shadows/dense_points.h"
+#include "core/stopwatch.h"
 #include "filters/shadow_lookup.h"
 #include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
@@ -20,12 +20,6 @@
 
 namespace obscura {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 constexpr std::pair<const char*, int> kernels[] = {{"1 tap", 1}, {"3x3", 3}, {"5x5", 5}};
 
@@ -89,14 +83,14 @@ std::vector<PointLookup> tree_point_lookups(const std::shared_ptr<const BuiltTre
 
 BuiltShadow build_dense(const Scene& scene, int size, const Exec& exec) {
     const Light light = shadow_light(scene, size, 1);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const auto map = std::make_shared<ShadowMap>();
     {
         RasterScratch scratch;
         build_shadow_map(scene.mesh, light, bounds_of(scene.mesh), exec, scratch, *map);
     }
     BuiltShadow built;
-    built.build_s = seconds_since(start);
+    built.build_s = watch.seconds();
     built.view = map->views[0];
     built.bytes = dense_map_bytes(light);
     built.light = pcf_light(light, *map, scene.camera.eye);
@@ -122,14 +116,14 @@ BuiltShadow build_dense(const Scene& scene, int size, const Exec& exec) {
 
 BuiltShadow build_compressed(const Scene& scene, int size, const Exec& exec) {
     const Light light = shadow_light(scene, size, 1);
-    const auto start = Clock::now();
+    const Stopwatch watch;
     const LightView view = shadow_views(light, bounds_of(scene.mesh))[0];
     const auto trees = std::make_shared<BuiltTree>();
     ShadowTree tree = encode_tree(build_shadow_tree(scene.mesh, view, {}, exec), view);
     const int top_levels = std::min(tree.code.levels, ShadowSettings{}.top_levels);
     set_top_grid(tree, top_levels);
     BuiltShadow built;
-    built.build_s = seconds_since(start);
+    built.build_s = watch.seconds();
     built.view = view;
     built.bytes = static_cast<std::int64_t>(tree.bytes) +
                   (static_cast<std::int64_t>(sizeof(TopNode)) << (2 * top_levels));

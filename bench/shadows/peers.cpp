@@ -1,11 +1,11 @@
-// Dense dual-depth maps of the raster bench's contestants, as a measure for building trees.
+// Dense dual-depth maps of peers, as a measure for building trees.
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "bench/raster/worker.h"
+#include "bench/harness/worker.h"
 #include "bench/shadows/shadow_bench.h"
 
 namespace obscura {
@@ -44,7 +44,7 @@ void run_dual_depths(const Contestant& contestant, const BenchScene& scene, cons
 }  // namespace
 
 std::vector<TimeRow> measure_dual_depths(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
-                                         const BenchOptions& options) {
+                                         const std::vector<Contestant>& peers, const BenchOptions& options) {
     const BenchScene scene = stage_scene(recipe.name, recipe.make(),
                                          BenchSize{plan.peer_map, plan.picture.width, plan.picture.height});
     std::vector<TimeRow> rows;
@@ -55,7 +55,7 @@ std::vector<TimeRow> measure_dual_depths(const ShadowRecipe& recipe, const Shado
         like.size = plan.peer_map;
         like.threads = threads;
         like.bytes = 8LL * plan.peer_map * plan.peer_map;
-        for (const Contestant& contestant : all_contestants())
+        for (const Contestant& contestant : peers)
             run_dual_depths(contestant, scene, like, rows);
     }
     for (const TimeRow& row : rows) {

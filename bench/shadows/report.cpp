@@ -6,9 +6,9 @@
 #include <iterator>
 
 #include "bench/harness/machine.h"
-#include "bench/raster/report.h"
+#include "bench/harness/report.h"
+#include "bench/harness/run_times.h"
 #include "bench/shadows/summary.h"
-#include "core/file_output.h"
 
 namespace obscura {
 namespace {
@@ -25,19 +25,6 @@ double megabytes(std::int64_t bytes) {
 
 double dense_bytes(int size) {
     return 4.0 * size * static_cast<double>(size);
-}
-
-/// "12.3 (12.0 to 13.1)".
-std::string range_text(const std::vector<double>& runs_ms) {
-    if (runs_ms.empty()) return "-";
-    const auto [low, high] = std::minmax_element(runs_ms.begin(), runs_ms.end());
-    return fmt::format("{:.2f} ({:.2f} to {:.2f})", median(runs_ms), *low, *high);
-}
-
-void write_machine(Out out) {
-    fmt::format_to(out, "\n## Machine\n\n| | |\n|---|---|\n");
-    for (const auto& [name, value] : describe_machine())
-        fmt::format_to(out, "| {} | {} |\n", name, value);
 }
 
 void write_accuracy(Out out, const std::vector<AccuracyRow>& rows) {
@@ -74,7 +61,7 @@ void write_times(Out out, const std::vector<TimeRow>& rows) {
     for (const TimeRow& row : rows) {
         fmt::format_to(out, "| {} | {} | {} | {} | {} | {} | {:.2f} |\n", row.scene,
                        method_name(row.method, row.size), row.job, row.threads,
-                       row.problem.empty() ? range_text(row.runs_ms) : row.problem,
+                       row.problem.empty() ? range_text(row.runs_ms, 2) : row.problem,
                        row.rate() > 0 ? fmt::format("**{:.1f}**", row.rate()) : "", megabytes(row.bytes));
     }
 }
@@ -255,12 +242,7 @@ std::string times_csv(const std::vector<TimeRow>& rows) {
     for (const TimeRow& row : rows) {
         fmt::format_to(Out(text), "{},{},{},{},\"{}\",{},{},", row.scene, row.triangles, row.method, row.size,
                        row.job, row.threads, row.runs_ms.size());
-        if (row.runs_ms.empty()) {
-            fmt::format_to(Out(text), ",,,");
-        } else {
-            const auto [low, high] = std::minmax_element(row.runs_ms.begin(), row.runs_ms.end());
-            fmt::format_to(Out(text), "{:.4f},{:.4f},{:.4f},", median(row.runs_ms), *low, *high);
-        }
+        text += range_fields(row.runs_ms);
         fmt::format_to(Out(text), "{},{:.3f},{},{},\"{}\"\n", row.lookups, row.rate(), row.bytes, row.version,
                        row.problem);
     }
@@ -303,7 +285,7 @@ std::string shadow_markdown(const ShadowResults& results, const BenchOptions& op
                    "Medians of up to {} interleaved runs. What is measured, and how: bench/README.md.\n\n",
                    options.runs);
     text += summary_markdown(results);
-    write_machine(out);
+    text += '\n' + machine_markdown({});
     write_accuracy(out, results.accuracy);
     write_ratios(out, results.times);
     if (!results.times.empty()) write_build_budget(out, results.times);
@@ -315,14 +297,13 @@ std::string shadow_markdown(const ShadowResults& results, const BenchOptions& op
 }
 
 void write_shadow_report(const ShadowResults& results, const BenchOptions& options) {
-    const auto write = [&](const char* name, const std::string& text) {
-        write_file_atomically(options.out / name, text, Existing::replace);
-    };
-    if (!results.accuracy.empty()) write("shadows_accuracy.csv", accuracy_csv(results.accuracy));
-    if (!results.times.empty()) write("shadows_times.csv", times_csv(results.times));
-    if (!results.sizes.empty()) write("shadows_trees.csv", trees_csv(results.sizes));
-    if (!results.directions.empty()) write("shadows_directions.csv", directions_csv(results.directions));
-    write("shadows.md", shadow_markdown(results, options));
+    // A table without rows leaves the file of an earlier run alone.
+    const auto unless_empty = [](const auto& rows, auto csv) { return rows.empty() ? "" : csv(rows); };
+    write_files(options, {{"shadows_accuracy.csv", unless_empty(results.accuracy, accuracy_csv)},
+                          {"shadows_times.csv", unless_empty(results.times, times_csv)},
+                          {"shadows_trees.csv", unless_empty(results.sizes, trees_csv)},
+                          {"shadows_directions.csv", unless_empty(results.directions, directions_csv)},
+                          {"shadows.md", shadow_markdown(results, options)}});
 }
 
 }  // namespace obscura

@@ -3,7 +3,8 @@
 
 #include <string>
 
-#include "bench/raster/raster_bench.h"
+#include "bench/harness/gnuplot.h"
+#include "bench/harness/options.h"
 #include "bench/shadows/results.h"
 
 namespace obscura {
@@ -22,6 +23,11 @@ struct MethodKey {
 /// The row of a method's job with so many threads; null when there is none with times.
 const TimeRow* find_time(const std::vector<TimeRow>& rows, const MethodKey& of, const std::string& job,
                          int threads);
+
+/// Colour and point of a method in every chart.
+MethodStyle shadow_style(const std::string& method);
+/// gnuplot commands: texels a side from 1k to 1M.
+std::string size_tics();
 
 std::string accuracy_csv(const std::vector<AccuracyRow>& rows);
 std::string times_csv(const std::vector<TimeRow>& rows);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/harness/report.h"
 #include "bench/shadows/report.h"
 #include "core/error.h"
 
@@ -69,31 +70,30 @@ std::string left_out(const ShadowBenchPlan& plan, const std::string& scene, int 
     return {};
 }
 
-int bench_shadows(const BenchOptions& options, const ShadowBenchParts& parts) {
+int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& peers) {
+    const auto wants = [&](const char* part) { return options.part.empty() || options.part == part; };
     const ShadowBenchPlan plan = shadow_bench_plan(options.quick);
     const std::vector<ShadowRecipe> recipes = recipes_of(options);
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw OutputError(fmt::format("{}: {}", options.out.string(), error.message()));
+    make_output_folder(options);
     ShadowResults results;
     // Times first: their workers must be forked before this process starts threads.
     for (const ShadowRecipe& recipe : recipes) {
-        if (!parts.times) break;
+        if (!wants("times")) break;
         for (TimeRow& row : measure_shadow_times(recipe, plan, options))
             results.times.push_back(std::move(row));
         if (!is_timed(plan, recipe.name)) continue;
-        for (TimeRow& row : measure_dual_depths(recipe, plan, options))
+        for (TimeRow& row : measure_dual_depths(recipe, plan, peers, options))
             results.times.push_back(std::move(row));
     }
     for (const ShadowRecipe& recipe : recipes) {
-        if (!parts.sizes) break;
+        if (!wants("sizes")) break;
         for (DirectionRow& row : measure_directions(recipe, plan, options))
             results.directions.push_back(std::move(row));
         for (SizeRow& row : measure_trees(recipe, plan, options))
             results.sizes.push_back(std::move(row));
     }
     for (const ShadowRecipe& recipe : recipes) {
-        if (!parts.accuracy) break;
+        if (!wants("accuracy")) break;
 #ifdef OBSCURA_HAS_EMBREE
         for (AccuracyRow& row : measure_accuracy(recipe, plan, options))
             results.accuracy.push_back(std::move(row));

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/raster/raster_bench.h"
+#include "bench/harness/contestant.h"
+#include "bench/harness/options.h"
 #include "bench/shadows/results.h"
 #include "bench/shadows/scenes.h"
 
@@ -32,14 +33,11 @@ bool is_timed(const ShadowBenchPlan& plan, const std::string& scene);
 std::string left_out(const ShadowBenchPlan& plan, const std::string& scene, int size, double last_s,
                      std::int64_t last_bytes);
 
-/// Which parts of the bench to run.
-struct ShadowBenchParts {
-    bool times = true, accuracy = true, sizes = true;
-};
-
 /// The whole bench: measures, writes shadows*.csv, shadows.md, with gnuplot SVG charts, and a picture per
 /// scene into options.out. Returns an exit code. Throws OutputError.
-int bench_shadows(const BenchOptions& options, const ShadowBenchParts& parts = {});
+/// options.part: "times", "accuracy" or "sizes" alone. `peers`: whose dual-depth maps are timed beside
+/// builds.
+int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& peers);
 
 // Its parts, scene by scene.
 
@@ -48,10 +46,10 @@ int bench_shadows(const BenchOptions& options, const ShadowBenchParts& parts = {
 std::vector<TimeRow> measure_shadow_times(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
                                           const BenchOptions& options);
 
-/// Dual-depth maps of plan.peer_map texels a side, by the methods of the raster bench: what building a tree
-/// is measured against. One run each. Call before this process starts any thread.
+/// Dual-depth maps of plan.peer_map texels a side, by the peers' methods: what building a tree is measured
+/// against. One run each. Call before this process starts any thread.
 std::vector<TimeRow> measure_dual_depths(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
-                                         const BenchOptions& options);
+                                         const std::vector<Contestant>& peers, const BenchOptions& options);
 
 /// Trees of the sizes of plan.tree_sizes, in this process.
 std::vector<SizeRow> measure_trees(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,

@@ -1,14 +1,9 @@
 #include "bench/shadows/shadow_rays.h"
 
-#include <embree3/rtcore.h>
-#include <fmt/format.h>
+#include <optional>
 
-#include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <cstring>
-#include <stdexcept>
-
+#include "bench/embree/embree_scene.h"
+#include "bench/harness/run_times.h"
 #include "core/parallel.h"
 #include "raster/view.h"
 
@@ -21,36 +16,11 @@ struct RayState {
     Exec exec;
     Vec3f eye, to_light;
     float offset_m = 0;
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-    std::atomic<std::int64_t> bytes{0};
+    EmbreeDevice device;
+    std::optional<EmbreeScene> scene;
 
-    RayState() = default;
-    RayState(const RayState&) = delete;
-    RayState& operator=(const RayState&) = delete;
-    ~RayState() {
-        if (scene != nullptr) rtcReleaseScene(scene);
-        if (device != nullptr) rtcReleaseDevice(device);
-    }
+    explicit RayState(const Exec& exec_) : exec(exec_), device(exec_.threads) {}
 };
-
-bool count_bytes(void* state, ssize_t bytes, bool) {
-    static_cast<RayState*>(state)->bytes += bytes;
-    return true;
-}
-
-template <class T>
-void upload(RTCGeometry geometry, RTCBufferType type, RTCFormat format, const std::vector<T>& values) {
-    void* buffer = rtcSetNewGeometryBuffer(geometry, type, 0, format, sizeof(T), values.size());
-    std::memcpy(buffer, values.data(), values.size() * sizeof(T));
-}
-
-RTCIntersectContext coherent_context() {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    return context;
-}
 
 /// The rays of 16 samples: columns first_column .. +3 of the block's four rows.
 struct ShadowPacket {
@@ -94,7 +64,7 @@ void trace_packets(const RayState& state, std::size_t b) {
         aim(state, s, column, packet);
         if (!packet.any) continue;
         RTCIntersectContext context = coherent_context();
-        rtcOccluded16(packet.valid, state.scene, &context, &packet.rays);
+        rtcOccluded16(packet.valid, state.scene->handle(), &context, &packet.rays);
         // Embree marks an occluded ray by tfar = -inf.
         for (int i = 0; i < 16; ++i) {
             const bool lit = packet.valid[i] != 0 && !(packet.rays.tfar[i] < 0);
@@ -120,57 +90,34 @@ void trace_single(const RayState& state, std::size_t b) {
             ray.dir_z = packet.rays.dir_z[i];
             ray.tfar = packet.rays.tfar[i];
             ray.mask = ~0u;
-            rtcOccluded1(state.scene, &context, &ray);
+            rtcOccluded1(state.scene->handle(), &context, &ray);
             (*state.shown)[state.points->pixel(b, sample_of(column, i))] = ray.tfar < 0 ? 0 : 1;
         }
     }
-}
-
-RTCScene build_scene(RTCDevice device, const Mesh& mesh) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    upload(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.positions);
-    upload(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.triangles);
-    rtcCommitGeometry(geometry);
-    RTCScene scene = rtcNewScene(device);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    return scene;
 }
 
 }  // namespace
 
 Session open_shadow_rays(const Mesh& mesh, const VisiblePoints& points, Vec3d to_light,
                          std::vector<std::uint8_t>& shown, const Exec& exec) {
-    const auto state = std::make_shared<RayState>();
+    const auto state = std::make_shared<RayState>(exec);
     state->points = &points;
     state->shown = &shown;
-    state->exec = exec;
     state->eye = to_float(points.eye);
     state->to_light = to_float(to_light);
     const Bounds bounds = bounds_of(mesh);
     state->offset_m = static_cast<float>(1e-4 * length(bounds.high - bounds.low));
-    state->device = rtcNewDevice(fmt::format("threads={}", exec.threads).c_str());
-    if (state->device == nullptr) throw std::runtime_error("Embree cannot create a device");
-    rtcSetDeviceMemoryMonitorFunction(state->device, count_bytes, state.get());
-    const auto start = std::chrono::steady_clock::now();
-    state->scene = build_scene(state->device, mesh);
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-    if (const RTCError error = rtcGetDeviceError(state->device); error != RTC_ERROR_NONE)
-        throw std::runtime_error(fmt::format("Embree error {}", static_cast<int>(error)));
+    Session session;
+    session.version = state->device.version();
+    session.prepare_ms =
+        milliseconds_of([&] { state->scene.emplace(state->device, mesh, RTC_SCENE_FLAG_NONE); });
+    session.prepare_mib = state->device.mib();
 
     const auto for_blocks = [s = state.get()](void (*trace)(const RayState&, std::size_t)) {
         return [s, trace] {
             parallel_for(s->points->blocks.size(), s->exec, [&](std::size_t b) { trace(*s, b); });
         };
     };
-    const auto property = [&](RTCDeviceProperty p) { return rtcGetDeviceProperty(state->device, p); };
-    Session session;
-    session.version =
-        fmt::format("Embree {}.{}.{}", property(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-                    property(RTC_DEVICE_PROPERTY_VERSION_MINOR), property(RTC_DEVICE_PROPERTY_VERSION_PATCH));
-    session.prepare_ms = elapsed.count();
-    session.prepare_mib = static_cast<double>(state->bytes) / (1 << 20);
     session.jobs = {{Workload::lookup, "packets of 16 rays", true, for_blocks(trace_packets), {}},
                     {Workload::lookup, "single rays", true, for_blocks(trace_single), {}}};
     session.state = state;

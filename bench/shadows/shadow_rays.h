@@ -1,7 +1,7 @@
 #pragma once
 // Shadow rays of Embree as a method of the shadow bench. Built only with Embree (OBSCURA_HAS_EMBREE).
 
-#include "bench/raster/contestant.h"
+#include "bench/harness/contestant.h"
 #include "bench/shadows/visible_points.h"
 #include "core/mesh.h"
 

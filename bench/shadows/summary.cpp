@@ -7,7 +7,8 @@
 #include <iterator>
 #include <tuple>
 
-#include "bench/raster/report.h"
+#include "bench/harness/report.h"
+#include "bench/harness/run_times.h"
 #include "bench/shadows/report.h"
 #include "core/scene.h"
 
@@ -58,17 +59,6 @@ std::vector<SummaryRow> summary_rows(const ShadowResults& results) {
     std::sort(rows.begin(), rows.end(),
               [&](const SummaryRow& a, const SummaryRow& b) { return rank(a) < rank(b); });
     return rows;
-}
-
-/// Thread counts of the times, ascending.
-std::vector<int> thread_counts(const ShadowResults& results) {
-    std::vector<int> counts;
-    for (const TimeRow& row : results.times) {
-        if (std::find(counts.begin(), counts.end(), row.threads) == counts.end())
-            counts.push_back(row.threads);
-    }
-    std::sort(counts.begin(), counts.end());
-    return counts;
 }
 
 /// Embree's rays answer for one tap.
@@ -147,7 +137,7 @@ std::vector<std::string> charted_scenes(const std::vector<SummaryRow>& rows) {
 std::string summary_markdown(const ShadowResults& results) {
     const std::vector<SummaryRow> rows = summary_rows(results);
     if (rows.empty()) return {};
-    const std::vector<int> threads = thread_counts(results);
+    const std::vector<int> threads = thread_counts(results.times);
     std::string text =
         "## Summary\n\n![chart](shadows_summary.svg)\n\nWrong pixels are those of one tap, against exact "
         "rays. Lookups: nanoseconds on the clock per pixel that faces the light, from its surface to its "
@@ -156,8 +146,7 @@ std::string summary_markdown(const ShadowResults& results) {
     const Out out(text);
     for (const char* what : {"build s", "1 tap ns", "3x3 ns"}) {
         for (const int count : threads)
-            fmt::format_to(out, " | {}, {}", what,
-                           count == 1 ? "1 thread" : fmt::format("{} threads", count));
+            fmt::format_to(out, " | {}, {}", what, threads_text(count));
     }
     text += " |\n|---|---|--:|--:";
     for (std::size_t i = 0; i < 3 * threads.size(); ++i)
@@ -184,8 +173,9 @@ std::string summary_markdown(const ShadowResults& results) {
 PanelChart summary_chart(const ShadowResults& results) {
     const std::vector<SummaryRow> rows = summary_rows(results);
     const std::vector<std::string> scenes = charted_scenes(rows);
-    const std::vector<int> threads = thread_counts(results);
+    const std::vector<int> threads = thread_counts(results.times);
     PanelChart chart;
+    chart.style_of = shadow_style;
     chart.title = "Shadows: error, memory, build and lookups against the size of the map";
     chart.note = threads.size() > 1 ? "Times: hollow or dashed with one thread, filled or solid with more. "
                                       "Lower is better everywhere; all axes logarithmic."

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 
-#include "bench/raster/worker.h"
+#include "bench/harness/run_times.h"
+#include "bench/harness/worker.h"
 #include "bench/shadows/map_points.h"
 #include "bench/shadows/methods.h"
 #include "bench/shadows/shadow_bench.h"
@@ -154,8 +153,6 @@ void run_slot(std::vector<std::unique_ptr<Worker>>& workers, Slot& slot, bool ke
     } catch (const std::runtime_error& error) {
         row.problem = fmt::format("failed: {}", error.what());
     }
-    // Let spinning threads of the one who just ran go to sleep before the next is on the clock.
-    std::this_thread::sleep_for(std::chrono::milliseconds(3));
 }
 
 TimeRow start_row(const Field& field, const Entrant& entrant, int threads) {

@@ -2,22 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "bench/harness/peak_memory.h"
 #include "bench/shadows/shadow_bench.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "hierarchy/shadow_tree.h"
 #include "raster/shadow_map.h"
 
 namespace obscura {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::int64_t encoded_bytes(const MultiresTree& tree, const LightView& view, TreeLayout layout) {
     EncodeParams params;
@@ -28,12 +21,12 @@ std::int64_t encoded_bytes(const MultiresTree& tree, const LightView& view, Tree
 void build_and_encode(const Scene& scene, int size, const Exec& exec, SizeRow& row) {
     const LightView view = shadow_views(shadow_light(scene, size, 1), bounds_of(scene.mesh))[0];
     const PeakMemory memory;
-    auto start = Clock::now();
+    Stopwatch watch;
     const MultiresTree tree = build_shadow_tree(scene.mesh, view, {}, exec, &row.stats);
-    row.build_s = seconds_since(start);
-    start = Clock::now();
+    row.build_s = watch.seconds();
+    watch = Stopwatch();
     row.words24 = encoded_bytes(tree, view, TreeLayout::words24);
-    row.encode_s = seconds_since(start);
+    row.encode_s = watch.seconds();
     row.peak_bytes = memory.bytes();
     row.words16 = encoded_bytes(tree, view, TreeLayout::words16);
     row.bytes16 = encoded_bytes(tree, view, TreeLayout::bytes16);
@@ -83,12 +76,12 @@ std::vector<DirectionRow> measure_directions(const ShadowRecipe& recipe, const S
         DirectionRow row;
         row.scene = recipe.name;
         row.size = size;
-        auto start = Clock::now();
+        Stopwatch watch;
         const MultiresTree up = build_bottom_up(intervals.view());
-        row.bottom_up_s = seconds_since(start);
-        start = Clock::now();
+        row.bottom_up_s = watch.seconds();
+        watch = Stopwatch();
         const MultiresTree down = build_top_down(intervals.view());
-        row.top_down_s = seconds_since(start);
+        row.top_down_s = watch.seconds();
         row.bottom_up = count_nodes(up);
         row.top_down = count_nodes(down);
         row.bottom_up_bytes = encoded_bytes(up, view, TreeLayout::words24);

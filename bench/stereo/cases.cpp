@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "bench/harness/run_times.h"
 #include "bench/stereo/stereo_bench.h"
 #include "stereo/solver.h"
 
@@ -42,10 +41,8 @@ CaseRow measure_case(StereoCase stereo_case, StereoSize size, const StereoBenchP
     params.verify = false;
     Solution solution;
     for (int run = 0; run < plan.rounds; ++run) {
-        const auto start = std::chrono::steady_clock::now();
-        solution = solve(subject.system, params, Exec{.threads = 1});
         const double ms =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+            milliseconds_of([&] { solution = solve(subject.system, params, Exec{.threads = 1}); });
         if (run == 0 || ms < row.ms) row.ms = ms;
     }
     row.iterations = solution.report.iterations;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "bench/harness/gnuplot.h"
+#include "bench/harness/panel_chart.h"
 #include "bench/stereo/report.h"
 
 namespace obscura {
@@ -50,7 +50,7 @@ Panel panel_of(const StereoResults& results, int width, int height, double MapEr
 
 }  // namespace
 
-std::optional<MethodStyle> stereo_style(const std::string& method) {
+MethodStyle stereo_style(const std::string& method) {
     static const std::map<std::string, MethodStyle> styles = {
         {multigrid_name, {"#0072B2", 6, 7}}, {fmg_name, {"#009E73", 8, 9}},
         {vcycle_name, {"#CC79A7", 10, 11}},  {cascade_name, {"#000000", 4, 5}},
@@ -60,20 +60,18 @@ std::optional<MethodStyle> stereo_style(const std::string& method) {
         {goal_line, {"#888888", 0, 0}},
     };
     const auto found = styles.find(method);
-    return found == styles.end() ? std::nullopt : std::optional(found->second);
+    return found == styles.end() ? MethodStyle{"#009E73", 8, 9} : found->second;
 }
 
 void draw_stereo_chart(const StereoResults& results, const BenchOptions& options) {
-    if (!has_gnuplot()) {
-        options.say("gnuplot is not installed (package gnuplot-nox): tables only, no chart");
-        return;
-    }
+    if (!can_draw(options, "chart")) return;
     std::vector<std::pair<int, int>> sizes;
     for (const StereoRow& row : results.rows) {
         if (std::find(sizes.begin(), sizes.end(), std::pair(row.width, row.height)) == sizes.end())
             sizes.emplace_back(row.width, row.height);
     }
     PanelChart chart;
+    chart.style_of = stereo_style;
     chart.title = "Disparity optimisation: error against time";
     chart.note =
         "Base case. Hollow: one thread, filled: two threads, or a peer with one. Left is faster, down more "

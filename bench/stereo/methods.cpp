@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "bench/harness/interleave.h"
+#include "bench/harness/run_times.h"
 #include "bench/stereo/memory_pass.h"
 #include "bench/stereo/stereo_bench.h"
 #include "stereo/solver.h"
@@ -43,10 +43,9 @@ struct SolveJob {
     double best_ms = 0;
 
     void run() {
-        const auto start = std::chrono::steady_clock::now();
-        Solution solution = solve(*system, params, exec, {}, keep ? &cache : nullptr);
+        Solution solution;
         const double ms =
-            std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+            milliseconds_of([&] { solution = solve(*system, params, exec, {}, keep ? &cache : nullptr); });
         // The first run of a kept cache fills it.
         const bool filled = !keep || runs_++ > 0;
         if (filled && (best_ms == 0 || ms < best_ms)) best = std::move(solution), best_ms = ms;

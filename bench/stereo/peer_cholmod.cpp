@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include "bench/stereo/peers.h"
+#include "core/stopwatch.h"
 
 namespace obscura {
 namespace {
@@ -52,10 +52,6 @@ cholmod_sparse* lower_triangle(const StereoMatrix& matrix, cholmod_common& commo
     return lower;
 }
 
-double milliseconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
-
 /// Adds what the factor makes of the residual.
 bool solve_once(const StereoMatrix& matrix, cholmod_factor* factor, cholmod_common& common,
                 std::vector<double>& x) {
@@ -79,17 +75,17 @@ DirectSolution solve_by_cholmod(const StereoMatrix& matrix) {
     DirectSolution solution;
     cholmod_sparse* lower = lower_triangle(matrix, session.common);
     if (lower == nullptr) return {{}, 0, 0, 0, "out of memory"};
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch whole;
     cholmod_factor* factor = cholmod_analyze(lower, &session.common);
     const bool factorised = factor != nullptr && cholmod_factorize(lower, factor, &session.common) != 0 &&
                             session.common.status == CHOLMOD_OK;
-    const auto factorised_at = std::chrono::steady_clock::now();
+    const Stopwatch after_factor;
     solution.x.assign(static_cast<std::size_t>(matrix.size), 0.0);
     if (!factorised || !solve_once(matrix, factor, session.common, solution.x) ||
         !solve_once(matrix, factor, session.common, solution.x))
         solution.problem = fmt::format("CHOLMOD failed with status {}", session.common.status);
-    solution.ms = milliseconds_since(start);
-    solution.solve_ms = milliseconds_since(factorised_at);
+    solution.ms = 1e3 * whole.seconds();
+    solution.solve_ms = 1e3 * after_factor.seconds();
     if (factor != nullptr && factor->is_super != 0)
         solution.factor_mib = static_cast<double>(factor->xsize) * sizeof(double) / (1 << 20);
     cholmod_free_factor(&factor, &session.common);

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "bench/harness/machine.h"
-#include "core/file_output.h"
+#include "bench/harness/report.h"
 
 namespace obscura {
 namespace {
@@ -25,13 +25,10 @@ std::string error_cell(const MapError& error) {
     return fmt::format("{} / {}", px_cell(error.max_px), px_cell(error.rms_px));
 }
 
-void write_machine(Out out, const StereoResults& results) {
-    fmt::format_to(out, "\n## Machine\n\n| | |\n|---|---|\n");
-    for (const auto& [name, value] : describe_machine())
-        fmt::format_to(out, "| {} | {} |\n", name, value);
+/// Further lines for the table of the machine.
+std::vector<MachineLine> libraries(const StereoResults& results) {
     const auto version = [](const std::string& text) { return text.empty() ? std::string("absent") : text; };
-    fmt::format_to(out, "| CHOLMOD | {} |\n| Eigen | {} |\n", version(results.cholmod),
-                   version(results.eigen));
+    return {{"CHOLMOD", version(results.cholmod)}, {"Eigen", version(results.eigen)}};
 }
 
 void write_passes(Out out, const StereoResults& results) {
@@ -102,7 +99,7 @@ void write_iterations(Out out, const StereoResults& results) {
 void write_cases(Out out, const StereoResults& results) {
     if (results.cases.empty()) return;
     fmt::format_to(out,
-                   "\n## Hard cases\n\nWhat they are: `bench/stereo_scenes.h`. Multigrid with default "
+                   "\n## Hard cases\n\nWhat they are: `bench/stereo/scenes.h`. Multigrid with default "
                    "tolerances, one thread. *Needed*: iterations from which on the true error stays below "
                    "the goal. Errors and estimates: largest / rms, px.\n\n| case | size | sets | needed | "
                    "taken | error | estimate | edited map's error | cascade's error | ms |\n"
@@ -222,7 +219,7 @@ std::string stereo_markdown(const StereoResults& results, const BenchOptions& op
                    "bench/README.md.\n\n",
                    options.runs);
     text += stereo_goals_markdown(results);
-    write_machine(out, results);
+    text += '\n' + machine_markdown(libraries(results));
     write_passes(out, results);
     write_methods(out, results);
     write_iterations(out, results);
@@ -233,13 +230,10 @@ std::string stereo_markdown(const StereoResults& results, const BenchOptions& op
 }
 
 void write_stereo_report(const StereoResults& results, const BenchOptions& options) {
-    const auto write = [&](const char* name, const std::string& text) {
-        write_file_atomically(options.out / name, text, Existing::replace);
-    };
-    write("stereo.csv", stereo_csv(results));
-    write("stereo_curves.csv", stereo_curves_csv(results));
-    if (!results.cases.empty()) write("stereo_cases.csv", stereo_cases_csv(results));
-    write("stereo.md", stereo_markdown(results, options));
+    write_files(options, {{"stereo.csv", stereo_csv(results)},
+                          {"stereo_curves.csv", stereo_curves_csv(results)},
+                          {"stereo_cases.csv", results.cases.empty() ? "" : stereo_cases_csv(results)},
+                          {"stereo.md", stereo_markdown(results, options)}});
 }
 
 }  // namespace obscura

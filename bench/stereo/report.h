@@ -1,11 +1,10 @@
 #pragma once
 // Results of the stereo bench as files: CSV for programs, Markdown for people, a chart.
 
-#include <optional>
 #include <string>
 
-#include "bench/harness/panel_chart.h"
-#include "bench/raster/raster_bench.h"
+#include "bench/harness/gnuplot.h"
+#include "bench/harness/options.h"
 #include "bench/stereo/results.h"
 
 namespace obscura {
@@ -25,8 +24,8 @@ std::string stereo_curves_csv(const StereoResults& results);  ///< a line per po
 std::string stereo_cases_csv(const StereoResults& results);
 std::string stereo_markdown(const StereoResults& results, const BenchOptions& options);
 
-/// Colour and point of a solver; nothing for other names.
-std::optional<MethodStyle> stereo_style(const std::string& method);
+/// Colour and point of a method in every chart.
+MethodStyle stereo_style(const std::string& method);
 
 /// Writes stereo.md, stereo.csv, stereo_curves.csv and stereo_cases.csv into options.out. Throws OutputError.
 void write_stereo_report(const StereoResults& results, const BenchOptions& options);

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "bench/harness/report.h"
 #include "bench/stereo/peers.h"
 #include "bench/stereo/report.h"
-#include "core/error.h"
+#include "core/stopwatch.h"
 
 namespace obscura {
 
@@ -41,15 +40,11 @@ StereoSubject stereo_subject(StereoCase stereo_case, StereoSize size) {
 int bench_stereo(const BenchOptions& given) {
     // A run takes minutes: lines of progress say how many have passed.
     BenchOptions options = given;
-    const auto start = std::chrono::steady_clock::now();
-    options.say = [&given, start](const std::string& line) {
-        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-        given.say(fmt::format("{:5.0f} s  {}", passed.count(), line));
+    options.say = [&given, watch = Stopwatch()](const std::string& line) {
+        given.say(fmt::format("{:5.0f} s  {}", watch.seconds(), line));
     };
     const StereoBenchPlan plan = stereo_bench_plan(options.quick, options.runs);
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) throw OutputError(fmt::format("{}: {}", options.out.string(), error.message()));
+    make_output_folder(options);
     StereoResults results;
     results.cholmod = version_of_cholmod();
     results.eigen = version_of_eigen();

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bench/raster/raster_bench.h"
+#include "bench/harness/options.h"
 #include "bench/stereo/results.h"
 #include "bench/stereo/scenes.h"
 #include "bench/stereo/truth.h"

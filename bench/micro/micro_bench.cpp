@@ -1,5 +1,5 @@
 // Stages of the rasterizer and lookups in trees one by one, with Google Benchmark: where the time goes.
-//   build/release/bench/obscura_micro_bench --benchmark_filter=city
+//   build/release/bench/micro/obscura_micro_bench --benchmark_filter=city
 
 #include <benchmark/benchmark.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 
 #include "bench/harness/recipes.h"
-#include "bench/shadows/micro_trees.h"
+#include "bench/micro/micro_trees.h"
 #include "core/topology.h"
 #include "raster/depth_map.h"
 #include "raster/interval_map.h"

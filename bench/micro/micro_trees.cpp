@@ -1,8 +1,8 @@
 // Lookups in serialised trees, for the points that a view of 1920 x 1080 pixels sees.
-//   build/release/bench/obscura_micro_bench --benchmark_filter=Tree
+//   build/release/bench/micro/obscura_micro_bench --benchmark_filter=Tree
 // Items are lookups; one thread.
 
-#include "bench/shadows/micro_trees.h"
+#include "bench/micro/micro_trees.h"
 
 #include <benchmark/benchmark.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/raster/stage.h"
+#include "bench/harness/stage.h"
 #include "core/isa.h"
 
 namespace obscura {
@@ -15,29 +15,12 @@ namespace obscura {
 ///  - depth: nearest depth per texel of the light view, 1 = nothing there;
 ///  - dual_depth: two such maps one after the other, the second 1 where there is no second surface;
 ///  - frame: linear RGB triples, exactly 0 where nothing is seen. The light has moved since the last frame:
-///  shadow
-///    maps are new, a hierarchy over the scene is kept;
+///    shadow maps are new, a hierarchy over the scene is kept;
 ///  - static_frame: the same when only the camera has moved: shadow maps are kept too.
 /// The shadow bench asks for two more, without results to compare there:
 ///  - shadow_map: makes a light's shadow map;
 ///  - lookup: visibility of every pixel of a picture.
 enum class Workload { depth, dual_depth, frame, static_frame, shadow_map, lookup };
-/// Those of the raster bench.
-inline constexpr Workload all_workloads[] = {Workload::depth, Workload::dual_depth, Workload::frame,
-                                             Workload::static_frame};
-
-/// Whether the result is a picture rather than maps of depths.
-constexpr bool is_frame(Workload workload) {
-    return workload == Workload::frame || workload == Workload::static_frame;
-}
-
-/// "depth", "dual depth", "frame", "static frame".
-const char* workload_name(Workload workload);
-/// The same for file names, with underscores.
-std::string workload_file_name(Workload workload);
-/// Number of floats in a result.
-std::size_t result_size(Workload workload, const BenchScene& scene);
-
 /// One thing a contestant can do with an opened scene.
 struct Job {
     Workload workload = Workload::depth;

@@ -1,9 +1,8 @@
-#include "bench/raster/stage.h"
+#include "bench/harness/stage.h"
 
 #include <algorithm>
-#include <chrono>
 
-#include "core/error.h"
+#include "bench/harness/run_times.h"
 #include "core/topology.h"
 #include "raster/view.h"
 
@@ -31,10 +30,7 @@ BenchScene stage_scene(std::string name, Mesh mesh, const BenchSize& size) {
     scene.mesh = std::move(mesh);
     scene.mesh.material.assign(scene.mesh.triangles.size(), 0);
     if (scene.mesh.objects.empty()) scene.mesh.objects = {{"all", true}};
-    const auto start = std::chrono::steady_clock::now();
-    analyse_topology(scene.mesh);
-    bench.topology_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    bench.topology_ms = milliseconds_of([&] { analyse_topology(scene.mesh); });
     scene.materials = {Material{}};
     scene.camera = camera_over(bounds_of(scene.mesh));
     scene.render = {size.frame_width, size.frame_height, 1, 0.0, ToneCurve::linear, Receivers::any};

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/raster/contestant.h"
+#include "bench/harness/contestant.h"
 
 namespace obscura {
 
@@ -53,7 +53,7 @@ class Worker {
     double prepare_mib() const { return prepare_mib_; }
     const std::vector<WorkerJob>& jobs() const { return jobs_; }
 
-    /// Runs a job once. Returns wall-clock milliseconds, taken inside the worker.
+    /// Runs a job once and lets the worker come to rest. Returns wall-clock milliseconds, taken inside it.
     double run(std::size_t job);
     /// Has the last result of a job written into the canvas.
     void deliver(std::size_t job);

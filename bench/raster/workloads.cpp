@@ -1,4 +1,4 @@
-#include "bench/raster/contestant.h"
+#include "bench/raster/workloads.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "bench/raster/worker.h"
+#include "bench/harness/worker.h"
 
 #include <fmt/format.h>
 #include <sched.h>
@@ -16,7 +16,9 @@
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
+#include "bench/harness/run_times.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -92,10 +94,7 @@ std::string answer(const Session& session, const Request& request, float* canvas
         job.deliver(canvas);
         return "+";
     }
-    const auto start = std::chrono::steady_clock::now();
-    job.run();
-    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-    return fmt::format("+{}", elapsed.count());
+    return fmt::format("+{}", milliseconds_of(job.run));
 }
 
 /// The life of a worker process. Ends when the bench closes its end of the socket.
@@ -189,7 +188,10 @@ std::string Worker::request(char verb, std::size_t job) {
 }
 
 double Worker::run(std::size_t job) {
-    return std::stod(request('r', job));
+    const double ms = std::stod(request('r', job));
+    // Let spinning threads of this one go to sleep before the next is on the clock.
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    return ms;
 }
 
 void Worker::deliver(std::size_t job) {
