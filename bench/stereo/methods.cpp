@@ -9,7 +9,7 @@
 #include "bench/harness/interleave.h"
 #include "bench/stereo/memory_pass.h"
 #include "bench/stereo/stereo_bench.h"
-#include "stereo/solver.h"
+#include "stereo/thesis/methods.h"
 
 namespace obscura {
 namespace {
@@ -44,7 +44,7 @@ struct SolveJob {
 
     void run() {
         const auto start = std::chrono::steady_clock::now();
-        Solution solution = solve(*system, params, exec, {}, keep ? &cache : nullptr);
+        Solution solution = solve_by_method(*system, params, exec, {}, keep ? &cache : nullptr);
         const double ms =
             std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
         // The first run of a kept cache fills it.
