@@ -52,6 +52,8 @@ struct BuildStats {
     std::uint64_t list_operations = 0;  ///< facet-square tests
     std::uint64_t facets = 0;           ///< triangles and pairs that reach the map
     double setup_s = 0, build_s = 0;    ///< seconds of wall clock
+
+    BuildStats& operator+=(const BuildStats& other);
 };
 
 /// The multiresolution hierarchy of `mesh` seen from `view` (square, a power of two in [1, 2^20] a side):
