@@ -14,8 +14,8 @@
 #include <fmt/format.h>
 
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
-#include "lessons/pattern_panels.h"
 #include "lessons/stereo_edits.h"
 #include "lessons/stereo_panels.h"
 #include "stereo/thesis/cascade.h"
