@@ -203,18 +203,6 @@ class Forest {
 
 }  // namespace
 
-BuildStats& BuildStats::operator+=(const BuildStats& other) {
-    nodes_visited += other.nodes_visited;
-    certified_cover += other.certified_cover;
-    certified_mesh += other.certified_mesh;
-    texels_rasterized += other.texels_rasterized;
-    list_operations += other.list_operations;
-    facets += other.facets;
-    setup_s += other.setup_s;
-    build_s += other.build_s;
-    return *this;
-}
-
 MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
                                const Exec& exec, BuildStats* stats, const std::atomic<bool>* cancel) {
     CHECK(std::has_single_bit(static_cast<unsigned>(params.tuning.block_side)) &&
