@@ -82,4 +82,9 @@ std::uint8_t linear_to_srgb8(float x) {
     return linear_to_srgb8_table()(x);
 }
 
+Rgb8 linear_to_srgb8(Vec3f linear) {
+    const CodeTable& code = linear_to_srgb8_table();
+    return {code(linear.x), code(linear.y), code(linear.z)};
+}
+
 }  // namespace obscura

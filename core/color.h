@@ -55,6 +55,7 @@ class CodeTable {
 const CodeTable& linear_to_srgb8_table();
 /// The same for one value; hold the table in loops.
 std::uint8_t linear_to_srgb8(float x);
+Rgb8 linear_to_srgb8(Vec3f linear);
 
 /// The least float that is >= x.
 float round_up_to_float(double x);

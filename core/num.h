@@ -5,7 +5,7 @@
 // whatever reaches a pixel calls these instead. They use + - * /, sqrt, floor and bit operations only, which
 // IEEE 754 rounds in one way.
 //
-// Accuracy: within 1 ulp of the true value, checked in tests/num_test.cpp. Zeros, infinities,
+// Accuracy: within 1 ulp of the true value, checked in tests/core/num_test.cpp. Zeros, infinities,
 // NaN and domain errors are those of C99 annex F; nothing sets errno or relies on floating-point flags.
 
 namespace obscura::num {

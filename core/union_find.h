@@ -8,7 +8,13 @@
 namespace obscura {
 
 struct UnionFind {
-    explicit UnionFind(std::size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0u); }
+    explicit UnionFind(std::size_t count = 0) { reset(count); }
+
+    /// Every member alone again.
+    void reset(std::size_t count) {
+        parent.resize(count);
+        std::iota(parent.begin(), parent.end(), 0u);
+    }
 
     std::uint32_t root(std::uint32_t i) {
         while (parent[i] != i)

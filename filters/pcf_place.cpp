@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/vec.h"
+#include "core/vec_arrays.h"
 #include "raster/view.h"
 
 namespace obscura::ref {
@@ -59,10 +59,6 @@ void place(const PcfView& view, const Moved& p, PcfPlace& r) {
     r.slope_y = dot(p.n, Vec3f{view.slope_y[0], view.slope_y[1], view.slope_y[2]}) * inv_nl;
 }
 
-Vec3f vec(const double (&v)[3]) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
 /// Square of the way on the map that a step on the receiver's plane makes.
 double squared_way(const PcfView& view, const Moved& p, const PcfPlace& r, Vec3f step) {
     const auto along = [&](const double(&m)[4]) {
@@ -83,11 +79,11 @@ double squared_way(const PcfView& view, const Moved& p, const PcfPlace& r, Vec3f
 float footprint_of(const CameraRays& rays, const PcfView& view, Vec3f p, Vec3f g, float depth,
                    const Moved& moved, const PcfPlace& r) {
     const float z = view_distance(rays, depth);
-    const Vec3f way = rays.perspective ? p : vec(rays.dir0);
+    const Vec3f way = rays.perspective ? p : to_float(vec(rays.dir0));
     // Planes seen edge-on are taken as if they were not quite.
     const float facing = lane_min(dot(g, way), -(pcf_least_cosine * std::sqrt(dot(way, way))));
     const auto step = [&](const double(&dir)[3], const double(&origin)[3]) {
-        const Vec3f a = rays.perspective ? vec(dir) * z : vec(origin);
+        const Vec3f a = rays.perspective ? to_float(vec(dir)) * z : to_float(vec(origin));
         return a - way * (dot(g, a) / facing);
     };
     const double right = squared_way(view, moved, r, step(rays.dir_x, rays.origin_x));

@@ -1,13 +1,9 @@
 #include "filters/shadow_lookup.h"
 
+#include "core/vec_arrays.h"
+
 namespace obscura {
 namespace {
-
-void set(float (&to)[3], Vec3f v) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-}
 
 Vec3d axis_of(const LightView& view, int row) {
     const auto& m = view.to_map.m[row];

@@ -3,7 +3,6 @@
 #include "hierarchy/build.h"
 
 #include <bit>
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "hierarchy/square_builder.h"
 #include "raster/layer_tile.h"
 
@@ -19,15 +19,6 @@ namespace {
 
 using Quadtree = SquareBuilder::Quadtree;
 using Part = SquareBuilder::Part;
-using Clock = std::chrono::steady_clock;
-
-void add(BuildStats& to, const BuildStats& s) {
-    to.nodes_visited += s.nodes_visited;
-    to.certified_cover += s.certified_cover;
-    to.certified_mesh += s.certified_mesh;
-    to.texels_rasterized += s.texels_rasterized;
-    to.list_operations += s.list_operations;
-}
 
 /// The upper squares, level by level, until there are enough to keep every thread busy: a fixed number, so
 /// that nothing depends on the threads.
@@ -86,7 +77,7 @@ class Forest {
         }
         ~Lease() {
             const std::lock_guard lock(forest_.mutex_);
-            add(forest_.stats, worker_->stats);
+            forest_.stats += worker_->stats;
             worker_->stats = {};
             forest_.idle_.push_back(std::move(worker_));
         }
@@ -210,10 +201,6 @@ class Forest {
     std::vector<std::unique_ptr<SquareBuilder>> idle_;
 };
 
-double seconds_since(Clock::time_point begin) {
-    return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
 }  // namespace
 
 MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
@@ -227,17 +214,17 @@ MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const Bu
     CHECK(t.block_side >= 1 && t.block_side <= block_side && t.tile_side >= 1 &&
               t.tile_side <= layer_tile_side && t.texels_per_facet >= 1 && t.smallest_task >= 1,
           "tuning out of range");
-    const Clock::time_point begin = Clock::now();
+    const Stopwatch setup;
     const FacetSet set = facets_of(mesh, view, params.only_casters, exec);
-    const double setup_s = seconds_since(begin);
-    const Clock::time_point built = Clock::now();
+    const double setup_s = setup.seconds();
+    const Stopwatch building;
     Forest forest(set, params, exec, cancel);
     MultiresTree tree = forest.build(std::countr_zero(static_cast<unsigned>(view.width)));
     if (stats != nullptr) {
         *stats = forest.stats;
         stats->facets = set.facets.size();
         stats->setup_s = setup_s;
-        stats->build_s = seconds_since(built);
+        stats->build_s = building.seconds();
     }
     return tree;
 }

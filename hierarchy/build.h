@@ -52,6 +52,18 @@ struct BuildStats {
     std::uint64_t list_operations = 0;  ///< facet-square tests
     std::uint64_t facets = 0;           ///< triangles and pairs that reach the map
     double setup_s = 0, build_s = 0;    ///< seconds of wall clock
+
+    BuildStats& operator+=(const BuildStats& s) {
+        nodes_visited += s.nodes_visited;
+        certified_cover += s.certified_cover;
+        certified_mesh += s.certified_mesh;
+        texels_rasterized += s.texels_rasterized;
+        list_operations += s.list_operations;
+        facets += s.facets;
+        setup_s += s.setup_s;
+        build_s += s.build_s;
+        return *this;
+    }
 };
 
 /// The multiresolution hierarchy of `mesh` seen from `view` (square, a power of two in [1, 2^20] a side):

@@ -40,22 +40,14 @@ Verdict Judge::judge(const Square& square, std::vector<Listed>& list, std::size_
     return verdict;
 }
 
-std::uint32_t Judge::root_of(std::uint32_t place) {
-    while (parent_[place] != place)
-        place = parent_[place] = parent_[parent_[place]];
-    return place;
-}
-
 /// Joins facets that share an edge within the square. What is left is torn where an edge has nothing beyond
 /// it.
 void Judge::connect(const Square& square, std::span<const Listed> list) {
     const auto count = static_cast<std::uint32_t>(list.size());
-    parent_.resize(count);
+    surfaces_.reset(count);
     groups_.assign(count, {});
-    for (std::uint32_t i = 0; i < count; ++i) {
-        parent_[i] = i;
+    for (std::uint32_t i = 0; i < count; ++i)
         slot_[list[i].facet] = i;
-    }
     for (std::uint32_t i = 0; i < count; ++i) {
         if (list[i].covers_all()) continue;
         if (count > longest_surface_) {
@@ -68,7 +60,7 @@ void Judge::connect(const Square& square, std::span<const Listed> list) {
             const std::uint32_t other = f.neighbour[k];
             const std::uint32_t j = other == no_facet ? count : slot_[other];
             if (j < count && list[j].facet == other && !list[j].covers_all()) {
-                parent_[root_of(i)] = root_of(j);
+                surfaces_.unite(i, j);
             } else {
                 groups_[i].torn = true;
             }
@@ -116,7 +108,7 @@ void Judge::gather(const Square& square, std::span<Listed> list) {
     // A tear is its whole group's; what is in a torn group need not be looked at more closely.
     for (std::uint32_t i = 0; i < list.size(); ++i) {
         if (list[i].covers_all()) continue;
-        const std::uint32_t root = parent_[i] = root_of(i);
+        const std::uint32_t root = surfaces_.parent[i] = surfaces_.root(i);
         groups_[root].torn = groups_[root].torn || groups_[i].torn;
     }
     for (std::uint32_t i = 0; i < list.size(); ++i) {
@@ -124,7 +116,7 @@ void Judge::gather(const Square& square, std::span<Listed> list) {
         const Facet& f = set_.facets[l.facet];
         if (l.covers_all()) {
             layers_.push_back({f.crossing, 1, l.low, l.high, &set_.plane(f), i});
-        } else if (Group& g = groups_[parent_[i]]; g.torn) {
+        } else if (Group& g = groups_[surfaces_.parent[i]]; g.torn) {
             least_uncertain_ = std::min(least_uncertain_, l.low);
             if (f.crossing == Crossing::entry) uncertain_entries_.push_back(l.low);
         } else {
@@ -133,9 +125,9 @@ void Judge::gather(const Square& square, std::span<Listed> list) {
     }
     for (std::uint32_t i = 0; i < list.size(); ++i) {
         if (list[i].covers_all()) continue;
-        const Group& g = groups_[parent_[i]];
+        const Group& g = groups_[surfaces_.parent[i]];
         if (g.torn) continue;
-        if (parent_[i] == i && g.weight > 0) layers_.push_back(layer_of(g, i, square, list[i]));
+        if (surfaces_.parent[i] == i && g.weight > 0) layers_.push_back(layer_of(g, i, square, list[i]));
         if (g.weight == 0) list[i].facet = no_facet;
     }
     std::sort(layers_.begin(), layers_.end(), [](const Layer& p, const Layer& q) {
@@ -316,7 +308,7 @@ float Judge::extreme(const Layer& layer, const Square& square, std::span<const L
     const auto bound = [&](const Listed& l) { return greatest ? l.high : -l.low; };
     std::vector<const Listed*> own;
     for (std::uint32_t i = 0; i < list.size(); ++i) {
-        if (list[i].facet != no_facet && parent_[i] == layer.root) own.push_back(&list[i]);
+        if (list[i].facet != no_facet && surfaces_.parent[i] == layer.root) own.push_back(&list[i]);
     }
     const auto first = std::max_element(
         own.begin(), own.end(), [&](const Listed* p, const Listed* q) { return bound(*p) < bound(*q); });

@@ -13,6 +13,7 @@
 
 #include "core/scene.h"
 #include "core/types.h"
+#include "core/union_find.h"
 #include "hierarchy/facets.h"
 
 namespace obscura {
@@ -63,7 +64,6 @@ class Judge {
         bool one_plane = true;
     };
 
-    std::uint32_t root_of(std::uint32_t place);
     void connect(const Square& square, std::span<const Listed> list);
     void gather(const Square& square, std::span<Listed> list);
     void add_to(Group& group, const Listed& l, const Square& square) const;
@@ -82,8 +82,9 @@ class Judge {
     const FacetSet& set_;
     Receivers receivers_;
     std::size_t longest_surface_;
-    std::vector<std::uint32_t> slot_;       ///< facet -> its place in the list, if that place holds it
-    std::vector<std::uint32_t> parent_;     ///< per place: union-find
+    std::vector<std::uint32_t> slot_;  ///< facet -> its place in the list, if that place holds it
+    UnionFind
+        surfaces_;  ///< of places in the list: facets that hang together; parents are roots once gathered
     std::vector<Group> groups_;             ///< per place that is a root
     std::vector<Layer> layers_;             ///< by least depth
     std::vector<float> uncertain_entries_;  ///< least depths of front faces that are no layer

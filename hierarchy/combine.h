@@ -4,9 +4,8 @@
 // L. Scandolo, P. Bauszat, E. Eisemann, "Compressed Multiresolution Hierarchies for High-Quality Precomputed
 // Shadows", Eurographics 2016, section 3.1 and algorithm 2. Fixed here, where the paper leaves it open:
 //  - intervals are closed;
-//  - candidate values are the children's minima, in child order (a most-stabbed value can always be moved up
-//  to
-//    the minimum of one of the intervals it stabs); the first that strictly beats all before it wins;
+//  - candidate values are the children's minima, in child order: a most-stabbed value can always be moved up
+//    to the minimum of one of the intervals it stabs. The first that strictly beats all before it wins;
 //  - the parent's interval is the intersection of the children that contain that value.
 
 #include "core/types.h"

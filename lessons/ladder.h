@@ -1,5 +1,5 @@
 #pragma once
-// One function per lesson, each in a file of its own.
+// The ladder: a lesson is a file of its own, its picture, and one row here.
 
 #include "core/image.h"
 #include "core/isa.h"
@@ -9,22 +9,30 @@ namespace obscura {
 
 constexpr int lesson_width = 1600, lesson_height = 1000;
 
-Image<Rgb8> lesson_1_edge_functions(const Exec& exec);
-Image<Rgb8> lesson_2_depth(const Exec& exec);
-Image<Rgb8> lesson_3_layers(const Exec& exec);
-Image<Rgb8> lesson_4_intervals(const Exec& exec);
-Image<Rgb8> lesson_5_mode_of_four(const Exec& exec);
-Image<Rgb8> lesson_6_tree(const Exec& exec);
-Image<Rgb8> lesson_7_recursion(const Exec& exec);
-Image<Rgb8> lesson_8_lookups(const Exec& exec);
-Image<Rgb8> lesson_9_quads(const Exec& exec);
-Image<Rgb8> lesson_10_adding_quads(const Exec& exec);
-Image<Rgb8> lesson_11_near_to_far(const Exec& exec);
-Image<Rgb8> lesson_12_colour(const Exec& exec);
-Image<Rgb8> lesson_13_disparity(const Exec& exec);
-Image<Rgb8> lesson_14_conflict(const Exec& exec);
-Image<Rgb8> lesson_15_jacobi(const Exec& any);
-Image<Rgb8> lesson_16_v_cycle(const Exec& any);
-Image<Rgb8> lesson_17_vertices(const Exec& exec);
+/// In order from 1: the function that draws it, its title, and what it shows.
+// clang-format off
+#define OBSCURA_LESSONS(LESSON) \
+    LESSON(lesson_1_edge_functions, "Edge functions", "which texels a triangle covers, and who owns a sample on a shared edge") \
+    LESSON(lesson_2_depth, "Depth", "one plane per face, the nearest of two surfaces, and why depth is monotone and clamped") \
+    LESSON(lesson_3_layers, "Layers", "every crossing of a ray with solids and sheets, in order") \
+    LESSON(lesson_4_intervals, "Intervals", "from a counter along the ray to the depth interval and the stored depth") \
+    LESSON(lesson_5_mode_of_four, "The mode of four", "how four squares choose their parent's depth, and what is left of them") \
+    LESSON(lesson_6_tree, "The tree", "level by level: nodes stand where depth intervals have nothing in common") \
+    LESSON(lesson_7_recursion, "Recursion", "from triangles to the tree: squares that are certain, and the few that are rasterized") \
+    LESSON(lesson_8_lookups, "Lookups", "steps down the tree for a kernel: each texel by itself, or all together") \
+    LESSON(lesson_9_quads, "Quads of an aperture", "an aperture as few signed rectangles, level by level from its texels up") \
+    LESSON(lesson_10_adding_quads, "Adding quads", "the far field as a sum of closed forms, largest quads first, and what it costs") \
+    LESSON(lesson_11_near_to_far, "From near to far", "fringes along a shadow's edge become the far field; the bright spot behind a disc") \
+    LESSON(lesson_12_colour, "Adding wavelengths", "one pattern per wavelength, how many it takes, and how fine a lookup must be") \
+    LESSON(lesson_13_disparity, "Disparity from depth", "how far apart two eyes see a point, from its depth; and what one sees alone") \
+    LESSON(lesson_14_conflict, "One edit's conflict", "edits tear a map and turn order round; gradients tell where, a system heals it") \
+    LESSON(lesson_15_jacobi, "Jacobi, sweep by sweep", "news travels one pixel per sweep; a pyramid is faster and solves something else") \
+    LESSON(lesson_16_v_cycle, "The V-cycle", "what is wrong goes down the levels, corrections come up; error per iteration") \
+    LESSON(lesson_17_vertices, "Vertices follow the map", "triangles cut where the map bends, moved half a disparity for either eye")
+// clang-format on
+
+#define OBSCURA_DECLARE_LESSON(draw, title, summary) Image<Rgb8> draw(const Exec& exec);
+OBSCURA_LESSONS(OBSCURA_DECLARE_LESSON)
+#undef OBSCURA_DECLARE_LESSON
 
 }  // namespace obscura

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "lessons/aperture_panels.h"
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
 #include "lessons/pattern_panels.h"
 #include "lessons/quad_fields.h"

@@ -14,6 +14,7 @@
 #include "core/num.h"
 #include "lessons/aperture_panels.h"
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
 #include "lessons/pattern_panels.h"
 #include "lessons/plane_fields.h"

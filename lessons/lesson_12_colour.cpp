@@ -14,8 +14,8 @@
 
 #include "lessons/colour_sums.h"
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
-#include "lessons/pattern_panels.h"
 #include "lessons/plane_fields.h"
 
 namespace obscura {

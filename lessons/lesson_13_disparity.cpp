@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
-#include "lessons/pattern_panels.h"
 #include "lessons/stereo_panels.h"
 #include "lessons/stereo_scene.h"
 #include "stereo/disparity.h"

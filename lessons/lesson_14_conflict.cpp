@@ -14,8 +14,8 @@
 
 #include "core/color.h"
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
-#include "lessons/pattern_panels.h"
 #include "lessons/stereo_edits.h"
 #include "lessons/stereo_panels.h"
 #include "stereo/conflict_overlay.h"

@@ -6,7 +6,7 @@
 // level, as printed, has the wrong sign. (Scandolo, Bauszat, Eisemann 2018; F. L. Scandolo, thesis, 2019,
 // section 4.3.3.)
 //
-// Calls: stereo/cascade.h jacobi_sweeps, halved, upsampled, stereo/solver.h solve.
+// Calls: stereo/thesis/cascade.h jacobi_sweeps, halved, upsampled, stereo/solver.h solve.
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +14,11 @@
 #include <fmt/format.h>
 
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
-#include "lessons/pattern_panels.h"
 #include "lessons/stereo_edits.h"
 #include "lessons/stereo_panels.h"
-#include "stereo/cascade.h"
+#include "stereo/thesis/cascade.h"
 
 namespace obscura {
 namespace {

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
 #include "lessons/stereo_edits.h"
 #include "lessons/stereo_panels.h"

@@ -29,6 +29,7 @@ namespace obscura {
 namespace {
 
 constexpr int map_texels = 2048;
+constexpr int seen_width = 7 * frame_tile_side, seen_height = 4 * frame_tile_side;
 
 // Step 1: the steps of every pixel's kernel.
 std::vector<ref::PcfSteps> steps_of(const std::vector<SurfaceBlock>& blocks, const PcfLight& light,
@@ -52,8 +53,8 @@ void draw_steps(Figure& f, const std::vector<SurfaceBlock>& blocks, const std::v
     const Cells cells{origin, 2, seen_width, seen_height};
     const auto sun = to_float(-lesson_sun());
     for (std::size_t i = 0; i < steps.size(); ++i) {
-        const Vec2d p = seen_pixel(i);
-        const bool below = p.y / cells.rows > p.x / cells.columns;
+        const auto [x, y] = seen_pixel(i, seen_width);
+        const bool below = y * seen_width > x * seen_height;
         const SurfaceBlock& s = blocks[i / block_samples];
         const auto at = static_cast<int>(i % block_samples);
         const float facing = s.gx[at] * sun.x + s.gy[at] * sun.y + s.gz[at] * sun.z;
@@ -61,7 +62,7 @@ void draw_steps(Figure& f, const std::vector<SurfaceBlock>& blocks, const std::v
         Rgb8 color =
             covered ? mix(ink::grey, ink::dark, 0.35 - 0.3 * static_cast<double>(facing)) : ink::panel;
         if (steps[i].naive > 0) color = heat(share_of(below ? steps[i].naive : steps[i].shared, most));
-        f.fill(cells.cell(static_cast<int>(p.x), static_cast<int>(p.y)), color);
+        f.fill(cells.cell(x, y), color);
     }
     f.line(cells.at(0, 0), cells.at(cells.columns, cells.rows), {ink::paper, 2});
     f.text(cells.at(6, cells.rows - 6), "every tap from the root", {11.5, ink::paper, Align::left, true});
@@ -117,7 +118,8 @@ Image<Rgb8> lesson_8_lookups(const Exec& exec) {
     camera.eye = {-95, 62, 110};
     camera.look_at = {0, 0, 0};
     camera.vfov_deg = 30;
-    const std::vector<SurfaceBlock> blocks = seen_surfaces(mesh, camera, exec);
+    const std::vector<SurfaceBlock> blocks =
+        seen_surfaces(SeenMesh(mesh), camera, seen_width, seen_height, exec);
     Light sun;
     sun.direction = lesson_sun();
     PcfLight light = pcf_light(sun, std::span(&tree, 1), camera.eye);

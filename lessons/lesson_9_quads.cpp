@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "lessons/aperture_panels.h"
 #include "lessons/drawing/figure.h"
+#include "lessons/drawing/panels.h"
 #include "lessons/ladder.h"
 #include "lessons/pattern_panels.h"
 

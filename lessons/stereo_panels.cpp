@@ -6,19 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "lessons/drawing/panels.h"
 
 namespace obscura {
-
-void draw_picture(Figure& f, Vec2d at, const Image<Rgb8>& picture, int zoom) {
-    Image<Rgb8> large(picture.width * zoom, picture.height * zoom);
-    for (int y = 0; y < large.height; ++y) {
-        for (int x = 0; x < large.width; ++x)
-            large(x, y) = picture(x / zoom, y / zoom);
-    }
-    f.image(static_cast<int>(at.x), static_cast<int>(at.y), large, 1);
-    f.frame({at.x, at.y, static_cast<double>(large.width), static_cast<double>(large.height)},
-            {ink::soft, 1});
-}
 
 void draw_map(Figure& f, Vec2d at, const DisparityMap& map, const DisparityColours& colours, int zoom) {
     draw_picture(f, at, disparity_picture(map, colours, {}), zoom);
@@ -52,18 +42,6 @@ ErrorSize size_of(const DisparityMap& error) {
     }
     size.rms_px = std::sqrt(size.rms_px / static_cast<double>(error.pixels.size()));
     return size;
-}
-
-void row_curve(Figure& f, const Plot& plot, const std::vector<double>& values, const Pen& pen, double tear) {
-    std::vector<Vec2d> line;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (i > 0 && std::fabs(values[i] - values[i - 1]) > tear) {
-            if (line.size() > 1) f.polyline(line, pen);
-            line.clear();
-        }
-        line.push_back(plot.at(static_cast<double>(i) + 0.5, std::clamp(values[i], plot.y0, plot.y1)));
-    }
-    if (line.size() > 1) f.polyline(line, pen);
 }
 
 }  // namespace obscura

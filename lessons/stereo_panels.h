@@ -1,5 +1,5 @@
 #pragma once
-// Panels of lessons 13 to 17: maps in colours, scales, rows of maps as curves.
+// Panels of lessons 13 to 17: maps in colours, scales, rows and sizes of maps.
 
 #include <string_view>
 #include <vector>
@@ -9,8 +9,6 @@
 
 namespace obscura {
 
-/// Every pixel zoom x zoom of the figure's, its upper left corner at `at` (whole pixels); framed.
-void draw_picture(Figure& f, Vec2d at, const Image<Rgb8>& picture, int zoom = 1);
 /// A map in its colours.
 void draw_map(Figure& f, Vec2d at, const DisparityMap& map, const DisparityColours& colours, int zoom = 1);
 /// The colours' scale, 14 pixels high, its numbers below it; `at` is its upper left corner.
@@ -25,10 +23,5 @@ struct ErrorSize {
     double max_px = 0, rms_px = 0;
 };
 ErrorSize size_of(const DisparityMap& error);
-
-/// Values at pixel centres 0.5, 1.5 ... of plot.x; a step between neighbours of more than `tear` is not
-/// drawn.
-void row_curve(Figure& f, const Plot& plot, const std::vector<double>& values, const Pen& pen,
-               double tear = 1e9);
 
 }  // namespace obscura

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <numeric>
 
-#include "core/parallel.h"
 #include "core/topology.h"
+#include "core/vec_arrays.h"
 #include "lessons/drawing/figure.h"
-#include "raster/depth_map.h"
+#include "lessons/seen_surfaces.h"
+#include "raster/camera_rays.h"
 #include "raster/depth_tile.h"
-#include "raster/surface.h"
-#include "raster/view.h"
 #include "scenes/build.h"
 #include "scenes/shapes.h"
 #include "stereo/disparity.h"
@@ -29,12 +27,6 @@ void add_object(Mesh& mesh, const char* name, const Mesh& part, const Affine& mo
     mesh.object.resize(mesh.triangles.size(), static_cast<std::uint32_t>(mesh.objects.size() - 1));
 }
 
-struct TileWork {
-    SurfaceBlock block;
-    alignas(64) float depth[frame_tile_side * frame_tile_side];
-    alignas(64) std::uint32_t triangle[frame_tile_side * frame_tile_side];
-};
-
 SeenPicture empty_picture(int width, int height) {
     SeenPicture seen;
     seen.depth_m = Image<float>(width, height, std::numeric_limits<float>::infinity());
@@ -43,51 +35,22 @@ SeenPicture empty_picture(int width, int height) {
     return seen;
 }
 
-/// Rows of a tile that the surface stage has been through.
-void keep_block(const SurfaceBlock& b, const CameraRays& rays, int x0, int y0, SeenPicture& seen) {
-    const Vec3d eye{rays.eye[0], rays.eye[1], rays.eye[2]};
-    for (int i = 0; i < block_samples; ++i) {
-        const int x = x0 + i % frame_tile_side, y = y0 + i / frame_tile_side;
-        if (x >= seen.triangle.width || y >= seen.triangle.height || b.triangle[i] == no_triangle) continue;
-        seen.depth_m(x, y) = view_distance(rays, b.depth[i]);
-        seen.position(x, y) = to_float(eye) + Vec3f{b.px[i], b.py[i], b.pz[i]};
-        seen.normal(x, y) = {b.nx[i], b.ny[i], b.nz[i]};
-        seen.triangle(x, y) = b.triangle[i];
-    }
-}
-
-/// `drawn`: the mesh where it is seen; `mesh`: where its surface is. Null `moved_to`: they are one.
-SeenPicture seen_picture(const Mesh& mesh, const Mesh& drawn, const std::vector<Vec3f>* moved_to,
-                         const Camera& camera, int width, int height, const Exec& exec) {
-    const View view = camera_view(camera, width, height);
+SeenPicture seen_picture(const SeenMesh& mesh, const Camera& camera, int width, int height,
+                         const Exec& exec) {
     const CameraRays rays = camera_rays(camera, width, height);
-    RasterScratch scratch;
-    setup_triangles(drawn, view, {}, exec, scratch.setup);
-    bin_records(scratch.setup, {0, 0, width, height}, frame_tile_side, exec, scratch.bins);
-    SurfaceTables tables;
-    surface_tables(mesh, std::vector<Material>(1), exec, tables);
-    SurfaceMesh surface = surface_mesh(mesh, tables);
-    if (moved_to != nullptr) surface.seen = &moved_to->front().x;
+    const Vec3d eye = vec(rays.eye);
     SeenPicture seen = empty_picture(width, height);
-    const int columns = (width + frame_tile_side - 1) / frame_tile_side;
-    const int rows = (height + frame_tile_side - 1) / frame_tile_side;
-    parallel_for(static_cast<std::size_t>(columns * rows), exec, [&](std::size_t i) {
-        const auto work = std::make_unique<TileWork>();
-        const int column = static_cast<int>(i) % columns, row = static_cast<int>(i) / columns;
-        const TileRect tile{column * frame_tile_side, row * frame_tile_side, frame_tile_side,
-                            frame_tile_side};
-        std::fill_n(work->depth, frame_tile_side * frame_tile_side, view.max_depth);
-        std::fill_n(work->triangle, frame_tile_side * frame_tile_side, no_triangle);
-        const auto list = scratch.bins.list(column, row);
-        OBSCURA_DISPATCH(exec.isa, visibility_tile, scratch.setup.records.data(), list.data(), list.size(),
-                         tile, work->depth, work->triangle);
-        for (int y = 0; y < frame_tile_side; y += block_rows) {
-            std::copy_n(work->depth + y * frame_tile_side, block_samples, work->block.depth);
-            std::copy_n(work->triangle + y * frame_tile_side, block_samples, work->block.triangle);
-            OBSCURA_DISPATCH(exec.isa, surface_block, surface, rays, tile, y, work->block);
-            keep_block(work->block, rays, tile.x0, tile.y0 + y, seen);
+    std::size_t sample = 0;
+    for (const SurfaceBlock& b : seen_surfaces(mesh, camera, width, height, exec)) {
+        for (int i = 0; i < block_samples; ++i, ++sample) {
+            const auto [x, y] = seen_pixel(sample, width);
+            if (x >= width || y >= height || b.triangle[i] == no_triangle) continue;
+            seen.depth_m(x, y) = view_distance(rays, b.depth[i]);
+            seen.position(x, y) = to_float(eye) + Vec3f{b.px[i], b.py[i], b.pz[i]};
+            seen.normal(x, y) = {b.nx[i], b.ny[i], b.nz[i]};
+            seen.triangle(x, y) = b.triangle[i];
         }
-    });
+    }
     return seen;
 }
 
@@ -124,13 +87,14 @@ std::vector<std::string> object_names(const Mesh& mesh) {
 
 SeenPicture seen_from_middle(const Mesh& mesh, const Camera& camera, int width, int height,
                              const Exec& exec) {
-    return seen_picture(mesh, mesh, nullptr, camera, width, height, exec);
+    return seen_picture(SeenMesh(mesh), camera, width, height, exec);
 }
 
 SeenPicture seen_by_eye(const StereoScene& scene, const MovedMesh& moved, Eye eye, int width, int height,
                         const Exec& exec) {
     const std::vector<Vec3f> at = eye_positions(moved, scene.camera, height, scene.rig, eye);
-    return seen_picture(moved.mesh, eye_mesh(moved, at, exec), &at, scene.camera, width, height, exec);
+    const Mesh drawn = eye_mesh(moved, at, exec);
+    return seen_picture({moved.mesh, drawn, at}, scene.camera, width, height, exec);
 }
 
 Image<Rgb8> shaded(const Mesh& mesh, const SeenPicture& seen) {

@@ -1,18 +1,10 @@
 #include "raster/camera_rays.h"
 
 #include "core/num.h"
+#include "core/vec_arrays.h"
 #include "raster/view.h"
 
 namespace obscura {
-namespace {
-
-void set(double (&to)[3], Vec3d v) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-}
-
-}  // namespace
 
 CameraRays camera_rays(const Camera& camera, int width, int height) {
     const Basis basis = look_basis(camera.look_at - camera.eye, camera.up);

@@ -8,9 +8,8 @@
 //  - An open surface outside solids gives the zero-width interval [z, z]; inside a solid it does not matter.
 //    When only the scene's own surfaces receive shadows (Receivers::static_only), its interval may reach up
 //    to, not including, the next surface, or to 1 where none follows.
-//  - A back face met while the counter is zero (a flipped solid, a solid cut open by the near plane, the
-//  light
-//    inside a solid) gives [z, z].
+//  - A back face met while the counter is zero gives [z, z]: a flipped solid, a solid cut open by the near
+//    plane, the light inside a solid.
 //  - A counter that never returns to zero gives [entry, entry].
 //  - Nothing at all gives the background [1, 1].
 

@@ -3,17 +3,9 @@
 #include <algorithm>
 
 #include "core/num.h"
+#include "core/vec_arrays.h"
 
 namespace obscura {
-namespace {
-
-void set(float (&to)[3], Vec3f v) {
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-}
-
-}  // namespace
 
 std::vector<ShadeMaterial> shade_materials(const std::vector<Material>& materials) {
     std::vector<ShadeMaterial> result;

@@ -9,8 +9,8 @@
 //   F: Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994;
 // over Lambert. Different from glTF: what Fresnel takes from the diffuse light is (1 - F'(n.l)) (1 - F'(n.v))
 // (after Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", JGT 2000), not 1 - F(h.v): it is
-// reciprocal too and never gives back more light than came in (tests/shade_test.cpp integrates it). F' rises
-// from 4 % to no more than the gloss, 1 - roughness, as the sky's specular term does (after Lagarde,
+// reciprocal too and never gives back more light than came in (tests/frame/shade_test.cpp integrates it). F'
+// rises from 4 % to no more than the gloss, 1 - roughness, as the sky's specular term does (after Lagarde,
 // "Adopting a physically based shading model", 2011): the facets of a rough surface are not grazed when the
 // surface is, and with the full F a white wall seen along itself would give back a sixth of its light and
 // look black.

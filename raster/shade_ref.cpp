@@ -3,15 +3,12 @@
 #include <cmath>
 
 #include "core/scalar_lanes.h"
+#include "core/vec_arrays.h"
 #include "raster/shade.h"
 #include "raster/shade_terms.h"
 
 namespace obscura::ref {
 namespace {
-
-Vec3f vec(const float (&v)[3]) {
-    return {v[0], v[1], v[2]};
-}
 
 float fifth_power(float x) {
     const float x2 = x * x;

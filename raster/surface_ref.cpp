@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/scalar_lanes.h"
-#include "core/vec.h"
+#include "core/vec_arrays.h"
 #include "raster/coverage.h"
 #include "raster/depth_tile.h"
 #include "raster/surface.h"
@@ -17,10 +17,6 @@ struct Ray {
     Vec3f origin_x, origin_y, dir_x, dir_y;
 };
 
-Vec3f vector_of(const double (&v)[3]) {
-    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
-}
-
 /// v0 + Y vy of a row in double, then rounded: the columns are added in float.
 Vec3f row_start(const double (&v0)[3], const double (&vy)[3], double Y) {
     return {static_cast<float>(v0[0] + vy[0] * Y), static_cast<float>(v0[1] + vy[1] * Y),
@@ -29,10 +25,10 @@ Vec3f row_start(const double (&v0)[3], const double (&vy)[3], double Y) {
 
 Ray ray_at(const CameraRays& rays, double X, double Y) {
     Ray r;
-    r.origin_x = vector_of(rays.origin_x);
-    r.origin_y = vector_of(rays.origin_y);
-    r.dir_x = vector_of(rays.dir_x);
-    r.dir_y = vector_of(rays.dir_y);
+    r.origin_x = to_float(vec(rays.origin_x));
+    r.origin_y = to_float(vec(rays.origin_y));
+    r.dir_x = to_float(vec(rays.dir_x));
+    r.dir_y = to_float(vec(rays.dir_y));
     const auto x = static_cast<float>(X);
     r.origin = row_start(rays.origin0, rays.origin_y, Y) + r.origin_x * x;
     r.dir = row_start(rays.dir0, rays.dir_y, Y) + r.dir_x * x;
@@ -74,10 +70,6 @@ Barycentrics step(const RayTriangle& m, Vec3f dir, Vec3f o, Vec3f d) {
     const float vn = dot(d, m.b) + dot(o, cross(m.e1, dir));
     const float det = dot(d, m.c);
     return {(un - (m.un * m.inv) * det) * m.inv, (vn - (m.vn * m.inv) * det) * m.inv};
-}
-
-Vec3f vec(const float (&v)[3]) {
-    return {v[0], v[1], v[2]};
 }
 
 Vec2f interpolated(const Vec2f& corner, const Vec2f& e1, const Vec2f& e2, Barycentrics b) {
@@ -136,7 +128,7 @@ Corners corners_of(const SurfaceMesh& mesh, std::uint32_t triangle) {
 
 /// Positions are relative to the eye, which two floats hold per axis.
 Vec3f relative_to_eye(const CameraRays& rays, Vec3f position) {
-    const Vec3f eye = vector_of(rays.eye);
+    const Vec3f eye = to_float(vec(rays.eye));
     const Vec3f eye_rest = {static_cast<float>(rays.eye[0] - static_cast<double>(eye.x)),
                             static_cast<float>(rays.eye[1] - static_cast<double>(eye.y)),
                             static_cast<float>(rays.eye[2] - static_cast<double>(eye.z))};

@@ -3,7 +3,7 @@
 // parameters: the same struct gives the same bits everywhere. What it makes stands on y = 0 about the origin,
 // faces +Z unless said otherwise, consists of closed solids (see scenes/shapes.h), which may touch and pierce
 // one another, and names its material slots. A scene file names them as shapes
-// (app/scene_generators.cpp has the ranges of single parameters). problem() says what is wrong between
+// (app/scene/generators.cpp has the ranges of single parameters). problem() says what is wrong between
 // parameters, in words for the person who wrote them; "" = nothing.
 
 #include <string>

@@ -1,10 +1,10 @@
 #include "stereo/conjugate_gradients.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 
 namespace obscura {
 namespace {
@@ -219,7 +219,7 @@ void start_residual(const DisparitySystem& s, const GridHierarchy& h, const Disp
 
 void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& params, const Exec& exec,
              IterationVectors& w, DisparityMap& x, SolveReport& report, LevelSeconds& seconds) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch clock;
     const bool stationary = params.method != SolverMethod::multigrid;
     start_residual(s, h, x, exec, w.r[0]);
     const std::vector<std::uint8_t>& valid = s.valid.pixels;
@@ -252,7 +252,7 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
         step.error_rms_px = root_mean_square.after(alpha * std::sqrt(sums.square / unknowns));
         if (report.iterations == 1) rz_first = rz;
         step.residual = std::sqrt(rz / rz_first);
-        step.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        step.seconds = clock.seconds();
         report.steps.push_back(step);
         report.error_max_px = step.error_max_px;
         report.error_rms_px = step.error_rms_px;

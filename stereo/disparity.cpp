@@ -10,23 +10,11 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/parallel.h"
+#include "stereo/grid_tasks.h"
 #include "stereo/row_spans.h"
 
 namespace obscura {
 namespace {
-
-constexpr std::size_t row_block = 16;
-
-/// Calls fn(y) for every row.
-template <class Fn>
-void for_rows(int height, const Exec& exec, Fn&& fn) {
-    parallel_blocks(static_cast<std::size_t>(height), row_block, exec,
-                    [&](std::size_t begin, std::size_t end) {
-                        for (std::size_t y = begin; y < end; ++y)
-                            fn(static_cast<int>(y));
-                    });
-}
 
 EyeDisparity drawn(const MiddleView& view, const DisparityMap& disparity, double shift, double join_px,
                    const Exec& exec) {

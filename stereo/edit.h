@@ -4,10 +4,10 @@
 // Scandolo, Bauszat, Eisemann, "Gradient-Guided Local Disparity Editing", CGF 2018 (thesis, sections 4.3.2
 // and 4.3.3, equations 4.2 to 4.4). Where the text is silent or says two things we chose:
 //
-// - D_m, the centre of 4.3, is the interquartile mean of the object's visible disparities: the mean of the
-// half
-//   of its pixels in the middle. Parts that come into sight or vanish at either end do not count, and it has
-//   no jumps as a median has. (The law of disparity is monotone: it is the disparity of a middling depth.)
+// - D_m, the centre of 4.3, is the interquartile mean of the object's visible disparities: the mean of those
+//   of its pixels in the middle half. Parts that come into sight or vanish at either end do not count, and it
+//   has no jumps as a median has. (The law of disparity is monotone: it is the disparity of a middling
+//   depth.)
 // - 4.3.3 takes gradients between objects from D~, 4.4 says that interfaces are maintained by default. Both
 //   are here, as EditParams::interfaces; the default is 4.4's, with which all results of the paper were made.
 // - D~ has matching points in it, too: members stand where their source is in D~, plus the target.

@@ -1,12 +1,10 @@
 #pragma once
 // The inner loops of the solvers: one row of a grid at a time. A sweep over a grid is rows of these, so that
-// several steps of an algorithm share one pass over memory (multigrid.cpp, conjugate_gradients.cpp).
+// several steps of an algorithm share one pass over memory (v_cycle.cpp, conjugate_gradients.cpp).
 //
 // Rows are `count` floats, a multiple of 16, aligned to 64 bytes, with at least 16 floats of padding before
 // and after them; what lies outside of the grid is 0, and so are pixels that are not unknowns (their `relax`
 // is 0). With that, the five-point stencil needs no case at borders or masks.
-
-#include <cstdint>
 
 namespace obscura {
 
@@ -29,25 +27,29 @@ struct alignas(64) LaneSums {
     float largest[16];  ///< absolute value
 };
 
-/// update_row:   r_out = r - alpha q;  z = relax r_out
-/// relax_row:    z = relax r
-/// residual_row: out = scale ((1 - omega) r + sum of edge * z_neighbour) where relax > 0, else 0: what is
-/// left
-///               of r after z = relax r, since diagonal * z = omega r. scale may be null (1)
+/// update_row: r_out = r - alpha q; z = relax r_out.
+///
+/// relax_row: z = relax r.
+///
+/// residual_row: what is left of r after z = relax r: out = scale (keep r + sum of edge * z_neighbour) where
+/// relax > 0, else 0, with keep = 1 - omega since diagonal * z = omega r. scale may be null: 1.
+///
 /// restrict_row: the transpose of prolong_row's interpolation, out of four fine rows: the coarse row's two
-/// and
-///               one on either side. `fine` are the unknowns of a fine row, `coarse` = (fine + 1) / 2 those
-///               of a coarse one; scratch has room for the fine row with padding. Fine rows end with zeros
-/// prolong_row:  bilinear interpolation at cell centres: 3/4 of the row's own coarse row, 1/4 of the other,
-///               likewise in x; borders repeat. scratch: a coarse row with padding; out: rounded up to 32
-/// correct_row:  out = relax r + scale p where relax > 0, else 0
-/// smooth_row:   out = (1 - omega) z + relax (r + sum of edge * z_neighbour) where relax > 0, else 0: one
-///               damped Jacobi sweep. sums.dot is r . out
-/// direction_row: x += alpha p_old (x may be null); p = z + beta p_old
-/// apply_row:    q = diagonal p - sum of edge * p_neighbour where relax > 0, else 0. sums: dot p . q, square
-///               and largest of p
-/// half_row:     floats to IEEE binary16, to nearest, ties to even; beyond 65504 that
-/// float_row:    and back, exact
+/// and one on either side. `fine` are the unknowns of a fine row, `coarse` = (fine + 1) / 2 those of a coarse
+/// one; scratch has room for the fine row with padding. Fine rows end with zeros.
+///
+/// prolong_row: bilinear interpolation at cell centres: 3/4 of the row's own coarse row, 1/4 of the other,
+/// likewise in x; borders repeat. scratch: a coarse row with padding; out: rounded up to 32.
+///
+/// correct_row: out = relax r + scale p where relax > 0, else 0. scale may be null: 1.
+///
+/// smooth_row: one damped Jacobi sweep: out = keep z + relax (r + sum of edge * z_neighbour) where relax > 0,
+/// else 0, with keep = 1 - omega. sums.dot is r . out.
+///
+/// direction_row: x += alpha p_old (x may be null); p = z + beta p_old.
+///
+/// apply_row: q = diagonal p - sum of edge * p_neighbour where relax > 0, else 0. sums: dot p . q, square and
+/// largest of p.
 #define OBSCURA_GRID_ROWS                                                                                \
     void update_row(const float* r, const float* q, float alpha, const float* relax, int count,          \
                     float* r_out, float* z) noexcept;                                                    \
@@ -65,9 +67,7 @@ struct alignas(64) LaneSums {
     void direction_row(const float* z, const float* p_old, float beta, float alpha, int count, float* x, \
                        float* p) noexcept;                                                               \
     void apply_row(const RowTriple& p, const RowEdges& edges, const float* diagonal, const float* relax, \
-                   int count, float* q, LaneSums& sums) noexcept;                                        \
-    void half_row(const float* x, int count, std::uint16_t* half) noexcept;                              \
-    void float_row(const std::uint16_t* half, int count, float* x) noexcept;
+                   int count, float* q, LaneSums& sums) noexcept;
 namespace ref {
 OBSCURA_GRID_ROWS
 }

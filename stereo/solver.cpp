@@ -1,24 +1,16 @@
 #include "stereo/solver.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "stereo/cascade.h"
+#include "core/stopwatch.h"
 #include "stereo/conjugate_gradients.h"
 #include "stereo/full_multigrid.h"
 #include "stereo/system_parts.h"
 
 namespace obscura {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// What same_matrix() compares, without the rest.
 DisparitySystem matrix_part(const DisparitySystem& s) {
@@ -45,39 +37,10 @@ void add_first_solution(const DisparitySystem& s, GridHierarchy& h, const Exec& 
         x(h.hubs[k].x, h.hubs[k].y) += static_cast<float>(first.hubs[k]);
 }
 
-/// A cascade ends after its sweeps, wherever that is. How far from the minimiser it is says a solver that
-/// gets there.
-void measure_cascade(const DisparitySystem& s, const Exec& exec, Solution& solution) {
-    SolverParams params;
-    params.verify = false;
-    const DisparityMap minimiser = solve(s, params, exec, solution.disparity).disparity;
-    double sum = 0, largest = 0, count = 0;
-    for (std::size_t i = 0; i < minimiser.pixels.size(); ++i) {
-        if (s.valid.pixels[i] == 0) continue;
-        const double miss =
-            static_cast<double>(solution.disparity.pixels[i]) - static_cast<double>(minimiser.pixels[i]);
-        largest = std::max(largest, std::abs(miss));
-        sum += miss * miss;
-        count += 1;
-    }
-    solution.report.error_max_px = largest;
-    solution.report.error_rms_px = count > 0 ? std::sqrt(sum / count) : 0;
-}
-
-/// Fills in what is known of a finished solution.
-void judge(const DisparitySystem& s, const SolverParams& params, const Exec& exec, Solution& solution) {
-    if (!params.verify) return;
-    const double before = residual_norm(s, s.start, exec);
-    const double after = residual_norm(s, solution.disparity, exec);
-    solution.report.residual = before > 0 ? after / before : after;
-    solution.report.unsatisfied = unsatisfied(s, solution.disparity);
-    if (params.method == SolverMethod::cascade) measure_cascade(s, exec, solution);
-}
-
 /// A system all of whose pixels hang together: x becomes its minimiser.
 void solve_connected(const DisparitySystem& system, const SolverParams& params, const Exec& exec,
                      SolverCache& use, DisparityMap& x, SolveReport& report) {
-    const Clock::time_point start = Clock::now();
+    const Stopwatch clock;
     if (use.levels.levels.empty() || !same_matrix(use.matrix_of, system)) {
         use.levels = grid_hierarchy(system, exec);
         use.matrix_of = matrix_part(system);
@@ -89,7 +52,7 @@ void solve_connected(const DisparitySystem& system, const SolverParams& params, 
         use.vectors = std::make_shared<IterationVectors>(use.levels);
     }
     LevelSeconds seconds(use.levels.levels.size(), 0.0);
-    report.setup_s = since(start);
+    report.setup_s = clock.seconds();
     if (params.method == SolverMethod::fmg) add_first_solution(system, use.levels, exec, x, seconds);
     iterate(system, use.levels, params, exec, *use.vectors, x, report, seconds);
     for (std::size_t l = 0; l < seconds.size(); ++l)
@@ -143,16 +106,19 @@ void solve_parts(const DisparitySystem& system, const SystemParts& parts, const 
 
 }  // namespace
 
+void judge(const DisparitySystem& s, const Exec& exec, Solution& solution) {
+    const double before = residual_norm(s, s.start, exec);
+    const double after = residual_norm(s, solution.disparity, exec);
+    solution.report.residual = before > 0 ? after / before : after;
+    solution.report.unsatisfied = unsatisfied(s, solution.disparity);
+}
+
 Solution solve(const DisparitySystem& system, const SolverParams& params, const Exec& exec,
                const DisparityMap& initial, SolverCache* cache) {
     CHECK(system.gradient_weight > 0 && system.epsilon > 0 && params.max_iterations > 0);
+    CHECK(params.method != SolverMethod::cascade, "stereo/thesis solves by cascade");
     CHECK(initial.pixels.empty() || (initial.width == system.width() && initial.height == system.height()));
-    const Clock::time_point start = Clock::now();
-    if (params.method == SolverMethod::cascade) {
-        Solution solution = solve_cascade(system, params, exec);
-        judge(system, params, exec, solution);
-        return solution;
-    }
+    const Stopwatch clock;
     Solution solution;
     SolveReport& report = solution.report;
     solution.disparity = initial.pixels.empty() ? system.start : initial;
@@ -169,8 +135,8 @@ Solution solve(const DisparitySystem& system, const SolverParams& params, const 
     } else {
         solve_parts(system, parts, params, exec, use, solution.disparity, report);
     }
-    report.solve_s = since(start) - report.setup_s;
-    judge(system, params, exec, solution);
+    report.solve_s = clock.seconds() - report.setup_s;
+    if (params.verify) judge(system, exec, solution);
     return solution;
 }
 

@@ -6,9 +6,9 @@
 // only corrected (see grid_hierarchy.h). Each half of a cycle is one pass over a level: sweep, residual and
 // restriction going down, interpolation and sweep going up, row by row through a few rows of cache.
 
-#include <chrono>
 #include <vector>
 
+#include "core/stopwatch.h"
 #include "stereo/grid_hierarchy.h"
 #include "stereo/grid_rows.h"
 
@@ -30,17 +30,15 @@ using LevelSeconds = std::vector<double>;
 /// Adds the time that it lives to a level's.
 class LevelClock {
   public:
-    LevelClock(LevelSeconds& seconds, std::size_t level)
-        : seconds_(seconds), level_(level), start_(std::chrono::steady_clock::now()) {}
+    LevelClock(LevelSeconds& seconds, std::size_t level) : seconds_(seconds), level_(level) {}
     ~LevelClock() {
-        if (level_ >= seconds_.size()) return;
-        seconds_[level_] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+        if (level_ < seconds_.size()) seconds_[level_] += clock_.seconds();
     }
 
   private:
     LevelSeconds& seconds_;
     std::size_t level_;
-    std::chrono::steady_clock::time_point start_;
+    Stopwatch clock_;
 };
 
 /// r = r_before - alpha q, then z = V r, where V is one V-cycle from zero. Of the cells only: r.hubs must be

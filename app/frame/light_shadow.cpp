@@ -31,17 +31,6 @@ std::uint64_t top_bytes(const ShadowTree& tree) {
     return tree.top ? tree.top->size() * sizeof(TopNode) : 0;
 }
 
-void add(const BuildStats& view, BuildStats& sum) {
-    sum.nodes_visited += view.nodes_visited;
-    sum.certified_cover += view.certified_cover;
-    sum.certified_mesh += view.certified_mesh;
-    sum.texels_rasterized += view.texels_rasterized;
-    sum.list_operations += view.list_operations;
-    sum.facets += view.facets;
-    sum.setup_s += view.setup_s;
-    sum.build_s += view.build_s;
-}
-
 /// Nodes that a tree may have for its construction to stay within `bytes`: held twice while threads' parts
 /// are joined, and once serialised.
 std::uint64_t most_nodes(std::int64_t bytes) {
@@ -56,7 +45,7 @@ MultiresTree build_tree(const Mesh& mesh, const Light& light, const LightView& v
     BuildStats of_view;
     try {
         MultiresTree tree = build_shadow_tree(mesh, view, params, exec, &of_view, cancel);
-        add(of_view, stats.build);
+        stats.build += of_view;
         return tree;
     } catch (const LimitError& error) {
         throw LimitError(fmt::format(

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "core/vec_arrays.h"
 #include "filters/shadow_lookup.h"
 #include "raster/shadow_map.h"
 
@@ -13,10 +14,6 @@ namespace {
 
 /// Surfaces that light meets at a smaller cosine count as if it were this.
 constexpr double least_cosine = 1.0 / 8.0;
-
-Vec3d vec(const double (&v)[3]) {
-    return {v[0], v[1], v[2]};
-}
 
 Vec3d row_axis(const double (&m)[4]) {
     return {m[0], m[1], m[2]};

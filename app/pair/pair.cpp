@@ -4,12 +4,13 @@
 #include <cmath>
 #include <utility>
 
-#include "app/pair/middle.h"
 #include "app/frame/memory.h"
+#include "app/pair/middle.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "stereo/map_projection.h"
 #include "stereo/reduced_system.h"
+#include "stereo/thesis/methods.h"
 #include "stereo/upsample.h"
 #include "stereo/warm_start.h"
 
@@ -75,8 +76,8 @@ void solve_map(const Scene& scene, const StereoSettings& settings, const Exec& e
     }
     const DisparityMap start = start_of(settings, cache, view, scene.camera, exec);
     pair.warm = !start.pixels.empty();
-    pair.solution =
-        solve(lower ? pair.reduced_system : pair.edited.system, settings.solver, exec, start, &cache.solver);
+    pair.solution = solve_by_method(lower ? pair.reduced_system : pair.edited.system, settings.solver, exec,
+                                    start, &cache.solver);
     const std::vector<float>& solved = pair.solution.disparity.pixels;
     CHECK(std::all_of(solved.begin(), solved.end(), [](float d) { return std::isfinite(d); }),
           "the solver diverged");

@@ -1,6 +1,5 @@
 #pragma once
-// Charts of a stereo report as inline SVG. Colours are the page's own, by class: see the style of
-// stereo_report.cpp.
+// Charts of a stereo report as inline SVG. Colours are the page's own, by class: see style.h.
 
 #include <string>
 #include <vector>
@@ -39,9 +38,6 @@ struct ChartBar {
 };
 /// Horizontal bars, each with its time.
 std::string bars_svg(const std::vector<ChartBar>& bars, const std::string& what);
-
-/// Numbers about `count` apart on [low, high]: 1, 2 or 5 times a power of ten.
-std::vector<double> round_ticks(double low, double high, int count);
 
 /// "0.32 s", "4.1 ms".
 std::string time_text(double seconds);

@@ -6,12 +6,14 @@
 
 #include <fmt/format.h>
 
-#include "app/report/html_text.h"
+#include "app/report/inline_png.h"
 #include "app/report/pair_charts.h"
 #include "app/report/pair_notes.h"
 #include "app/report/pair_pictures.h"
 #include "app/report/style.h"
+#include "core/color.h"
 #include "core/image_io.h"
+#include "lessons/drawing/markup.h"
 #include "stereo/conflict_overlay.h"
 #include "stereo/disparity.h"
 #include "stereo/disparity_colour.h"
@@ -115,9 +117,8 @@ std::string anaglyph_section(const StereoReportInput& in, const Exec& exec) {
 }
 
 std::string css_colour(Vec3f linear) {
-    Image<Vec3f> one(1, 1, linear);
-    const Image<Rgba8> code = decode_png(encode_display(one), "colour");
-    return fmt::format("#{:02x}{:02x}{:02x}", code(0, 0).r, code(0, 0).g, code(0, 0).b);
+    const Rgb8 code = linear_to_srgb8(linear);
+    return fmt::format("#{:02x}{:02x}{:02x}", code.r, code.g, code.b);
 }
 
 std::string conflicts_section(const StereoReportInput& in, const Exec& exec) {

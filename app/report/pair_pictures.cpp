@@ -11,7 +11,7 @@
 #include "core/parallel.h"
 #include "filters/tonemap.h"
 #include "stereo/conflict_overlay.h"
-#include "stereo/warp.h"
+#include "stereo/thesis/warp.h"
 
 namespace obscura {
 namespace {

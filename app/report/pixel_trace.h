@@ -14,7 +14,7 @@ struct PixelTrace {
     std::string text;  ///< the account, line by line
 };
 
-/// Follows pixel (x, y) of the whole picture through the stages of app/frame_tile.h, in their reference form:
+/// Follows pixel (x, y) of the whole picture through the stages of app/frame/tile.h, in their reference form:
 /// samples, triangle, depth, barycentrics, position, normals, texture level, then light by light the shadow
 /// lookup with its taps, the terms of the surface model, and what they add up to. `cache`: as for
 /// render_frame().

@@ -3,9 +3,9 @@
 #include "app/scene/keys.h"
 #include "stereo/edit.h"
 #include "stereo/moved_mesh.h"
-#include "stereo/range_remap.h"
 #include "stereo/solver.h"
 #include "stereo/stereo_rig.h"
+#include "stereo/thesis/range_remap.h"
 
 namespace obscura {
 namespace {

@@ -5,6 +5,7 @@
 #include "bench/harness/run_times.h"
 #include "bench/stereo/stereo_bench.h"
 #include "stereo/solver.h"
+#include "stereo/thesis/cascade.h"
 
 namespace obscura {
 namespace {
@@ -51,8 +52,8 @@ CaseRow measure_case(StereoCase stereo_case, StereoSize size, const StereoBenchP
     row.start = map_error(subject.system, subject.system.start, subject.truth.x);
     row.error = map_error(subject.system, solution.disparity, subject.truth.x);
     row.needed = needed_iterations(subject, plan.case_iterations);
-    params.method = SolverMethod::cascade;
-    row.cascade = map_error(subject.system, solve(subject.system, params, Exec{}).disparity, subject.truth.x);
+    row.cascade =
+        map_error(subject.system, solve_cascade(subject.system, params, Exec{}).disparity, subject.truth.x);
     return row;
 }
 

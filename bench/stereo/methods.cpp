@@ -9,7 +9,7 @@
 #include "bench/harness/run_times.h"
 #include "bench/stereo/memory_pass.h"
 #include "bench/stereo/stereo_bench.h"
-#include "stereo/solver.h"
+#include "stereo/thesis/methods.h"
 
 namespace obscura {
 namespace {
@@ -45,7 +45,7 @@ struct SolveJob {
     void run() {
         Solution solution;
         const double ms =
-            milliseconds_of([&] { solution = solve(*system, params, exec, {}, keep ? &cache : nullptr); });
+            milliseconds_of([&] { solution = solve_by_method(*system, params, exec, {}, keep ? &cache : nullptr); });
         // The first run of a kept cache fills it.
         const bool filled = !keep || runs_++ > 0;
         if (filled && (best_ms == 0 || ms < best_ms)) best = std::move(solution), best_ms = ms;

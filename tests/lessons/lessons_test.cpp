@@ -32,8 +32,9 @@
 #include "lessons/stereo_panels.h"
 #include "lessons/stereo_scene.h"
 #include "lessons/tree_scene.h"
-#include "stereo/cascade.h"
+
 #include "stereo/disparity.h"
+#include "stereo/thesis/cascade.h"
 
 namespace obscura {
 namespace {
@@ -298,11 +299,10 @@ TEST(Lessons, LessonFifteensSweepsAreSlowAndThePrintedSignIsWrong) {
     const double before = error(system.start);
     EXPECT_GT(error(jacobi_sweeps(system, system.start, 100, {best_isa(), 1})), 0.5 * before);
     SolverParams params;
-    params.method = SolverMethod::cascade;
-    const double corrected = error(solve(system, params, {best_isa(), 1}).disparity);
+    const double corrected = error(solve_cascade(system, params, {best_isa(), 1}).disparity);
     params.printed_sign = true;
     EXPECT_LT(corrected, 0.5 * before);
-    EXPECT_GT(error(solve(system, params, {best_isa(), 1}).disparity), 2 * corrected);
+    EXPECT_GT(error(solve_cascade(system, params, {best_isa(), 1}).disparity), 2 * corrected);
 }
 
 TEST(Lessons, LessonSixteensConjugateGradientsOvertakeCycles) {

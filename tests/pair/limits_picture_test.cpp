@@ -12,7 +12,7 @@
 #include "core/image_io.h"
 #include "lessons/drawing/figure.h"
 #include "stereo/disparity_colour.h"
-#include "stereo/warp.h"
+#include "stereo/thesis/warp.h"
 #include "tests/frame/scenes.h"
 #include "tests/pair/limit_cases.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "stereo/solver.h"
-#include "stereo/warp.h"
+#include "stereo/thesis/warp.h"
 #include "tests/pair/limit_cases.h"
 
 namespace obscura {

@@ -12,11 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "app/report/html_text.h"
+#include "app/report/inline_png.h"
 #include "app/report/pair_charts.h"
 #include "app/report/pair_pictures.h"
 #include "core/error.h"
 #include "core/image_io.h"
+#include "lessons/drawing/markup.h"
+#include "lessons/drawing/svg_chart.h"
 #include "tests/pair/eyes.h"
 
 namespace obscura {

@@ -16,8 +16,8 @@
 #include "core/image_io.h"
 #include "core/pnm.h"
 #include "stereo/disparity.h"
+#include "stereo/thesis/warp.h"
 #include "stereo/upsample.h"
-#include "stereo/warp.h"
 
 namespace obscura {
 namespace {

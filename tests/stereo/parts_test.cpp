@@ -7,6 +7,7 @@
 
 #include "stereo/solver.h"
 #include "stereo/system_parts.h"
+#include "stereo/thesis/cascade.h"
 #include "tests/stereo/small_solver.h"
 
 namespace obscura {
@@ -137,9 +138,7 @@ TEST(DisparityEnergy, LeavesOutSetsOfPixelsThatAreNotValid) {
 
 TEST(Cascade, TellsHowFarItIsFromTheMinimiser) {
     const DisparitySystem s = islands();
-    SolverParams p;
-    p.method = SolverMethod::cascade;
-    const Solution solution = solve(s, p, {});
+    const Solution solution = solve_cascade(s, {}, {});
     EXPECT_FALSE(solution.report.converged);
     const double error = worst(s, solution.disparity);
     EXPECT_GT(error, 0.2);

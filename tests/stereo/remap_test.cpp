@@ -1,5 +1,5 @@
 // One curve for the whole range: ends, monotony, and what each operator is for.
-#include "stereo/range_remap.h"
+#include "stereo/thesis/range_remap.h"
 
 #include <gtest/gtest.h>
 

@@ -12,6 +12,7 @@
 #include "stereo/grid_plane.h"
 #include "stereo/grid_restrict.h"
 #include "stereo/grid_rows.h"
+#include "stereo/thesis/half_rows.h"
 
 namespace obscura {
 namespace {

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include "stereo/cascade.h"
 #include "stereo/conjugate_gradients.h"
 #include "stereo/full_multigrid.h"
 #include "stereo/solver.h"
+#include "stereo/thesis/cascade.h"
+#include "stereo/thesis/methods.h"
 
 namespace obscura {
 namespace {
@@ -244,10 +245,10 @@ TEST(Solver, SameBitsForAnyThreadsAndInstructionSet) {
         SolverParams p;
         p.method = method;
         p.max_iterations = 6;
-        const Solution expected = solve(s, p, {Isa::ref, 1});
+        const Solution expected = solve_by_method(s, p, {Isa::ref, 1});
         for (const Isa isa : supported_isas()) {
             for (const int threads : {1, 2, 5}) {
-                const Solution actual = solve(s, p, {isa, threads});
+                const Solution actual = solve_by_method(s, p, {isa, threads});
                 EXPECT_EQ(actual.disparity, expected.disparity)
                     << isa_name(isa) << ", " << threads << " threads, method " << static_cast<int>(method);
                 EXPECT_EQ(actual.report.error_max_px, expected.report.error_max_px);
@@ -302,10 +303,9 @@ TEST(Cascade, NeedsTheCorrectedSign) {
     const DisparitySystem s = test_system(240, 135, false, 0);
     SolverParams p = tight();
     const DisparityMap truth = solve(s, p, {}).disparity;
-    p.method = SolverMethod::cascade;
-    const double corrected = max_difference(solve(s, p, {}).disparity, truth);
+    const double corrected = max_difference(solve_cascade(s, p, {}).disparity, truth);
     p.printed_sign = true;
-    const double printed = max_difference(solve(s, p, {}).disparity, truth);
+    const double printed = max_difference(solve_cascade(s, p, {}).disparity, truth);
     EXPECT_LT(corrected, 6);
     EXPECT_GT(printed, 2 * corrected);
 }
@@ -313,15 +313,14 @@ TEST(Cascade, NeedsTheCorrectedSign) {
 TEST(Cascade, HalfFloatsCostAFewHundredthsOfAPixel) {
     const DisparitySystem s = test_system(240, 135, true, 1);
     SolverParams p;
-    p.method = SolverMethod::cascade;
-    const DisparityMap single = solve(s, p, {}).disparity;
+    const DisparityMap single = solve_cascade(s, p, {}).disparity;
     p.half_storage = true;
-    const DisparityMap half = solve(s, p, {}).disparity;
+    const DisparityMap half = solve_cascade(s, p, {}).disparity;
     // Disparities of 8 to 16 pixels are kept to 1/256; roundings of sweeps and levels add up to a few of
     // them.
     EXPECT_LT(max_difference(half, single), 0.05);
     EXPECT_GT(max_difference(half, single), 1.0 / 256);
-    EXPECT_EQ(solve(s, p, {Isa::ref, 1}).disparity, solve(s, p, {best_isa(), 3}).disparity);
+    EXPECT_EQ(solve_cascade(s, p, {Isa::ref, 1}).disparity, solve_cascade(s, p, {best_isa(), 3}).disparity);
 }
 
 TEST(Cascade, JacobiSweepsGoToTheMinimiser) {

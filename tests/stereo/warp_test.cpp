@@ -8,7 +8,7 @@
 
 #include "core/color.h"
 #include "stereo/disparity_colour.h"
-#include "stereo/warp.h"
+#include "stereo/thesis/warp.h"
 #include "tests/stereo/ray_scene.h"
 
 namespace obscura {

@@ -1,7 +1,10 @@
-#include "stereo/cascade.h"
+#include "stereo/thesis/cascade.h"
 
-#include <chrono>
+#include <algorithm>
+#include <cmath>
 
+#include "core/error.h"
+#include "core/stopwatch.h"
 #include "stereo/grid_plane.h"
 #include "stereo/grid_rows.h"
 #include "stereo/grid_tasks.h"
@@ -25,6 +28,25 @@ void add_sets(const DisparitySystem& s, const JacobiForm& form, const GridPlane&
         after.row(set.source_y)[set.source_x] += form.relax.row(set.source_y)[set.source_x] *
                                                  static_cast<float>(static_cast<double>(set.weight) * pull);
     }
+}
+
+/// A cascade ends after its sweeps, wherever that is. How far from the minimiser it is says a solver that
+/// gets there.
+void measure_errors(const DisparitySystem& s, const Exec& exec, Solution& solution) {
+    SolverParams params;
+    params.verify = false;
+    const DisparityMap minimiser = solve(s, params, exec, solution.disparity).disparity;
+    double sum = 0, largest = 0, count = 0;
+    for (std::size_t i = 0; i < minimiser.pixels.size(); ++i) {
+        if (s.valid.pixels[i] == 0) continue;
+        const double miss =
+            static_cast<double>(solution.disparity.pixels[i]) - static_cast<double>(minimiser.pixels[i]);
+        largest = std::max(largest, std::abs(miss));
+        sum += miss * miss;
+        count += 1;
+    }
+    solution.report.error_max_px = largest;
+    solution.report.error_rms_px = count > 0 ? std::sqrt(sum / count) : 0;
 }
 
 }  // namespace
@@ -136,30 +158,33 @@ DisparityMap jacobi_sweeps(const DisparitySystem& s, DisparityMap x, int sweeps,
 }
 
 Solution solve_cascade(const DisparitySystem& system, const SolverParams& params, const Exec& exec) {
-    const auto start = std::chrono::steady_clock::now();
-    const auto seconds = [&] {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    };
+    CHECK(system.gradient_weight > 0 && system.epsilon > 0);
+    const Stopwatch clock;
     std::vector<DisparitySystem> pyramid;  // without the finest
     const auto finest = [&]() -> const DisparitySystem& { return pyramid.empty() ? system : pyramid.back(); };
     while (std::max(finest().width(), finest().height()) > coarsest_side)
         pyramid.push_back(halved(finest()));
     Solution solution;
     SolveReport& report = solution.report;
-    report.setup_s = seconds();
+    report.setup_s = clock.seconds();
     DisparityMap x = finest().start;
     for (std::size_t l = pyramid.size() + 1; l-- > 0;) {
-        const double before = seconds();
+        const double before = clock.seconds();
         const DisparitySystem& level = l == 0 ? system : pyramid[l - 1];
         if (l < pyramid.size()) x = upsampled(level, pyramid[l], x, params.printed_sign);
         x = params.half_storage ? jacobi_sweeps_half(level, std::move(x), params.sweeps, exec)
                                 : jacobi_sweeps(level, std::move(x), params.sweeps, exec);
-        report.levels.insert(report.levels.begin(), {level.width(), level.height(), seconds() - before});
-        report.steps.push_back({0, 0, 0, seconds()});
+        report.levels.insert(report.levels.begin(),
+                             {level.width(), level.height(), clock.seconds() - before});
+        report.steps.push_back({0, 0, 0, clock.seconds()});
         report.iterations += params.sweeps;
     }
-    report.solve_s = seconds() - report.setup_s;
+    report.solve_s = clock.seconds() - report.setup_s;
     solution.disparity = std::move(x);
+    if (params.verify) {
+        judge(system, exec, solution);
+        measure_errors(system, exec, solution);
+    }
     return solution;
 }
 

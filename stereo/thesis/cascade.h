@@ -1,8 +1,9 @@
 #pragma once
-// The paper's solver (thesis, section 4.3.3): a pyramid of half resolutions, ten Jacobi sweeps per level,
-// once from coarse to fine. For teaching and comparison: each level is a problem of its own, with sampled
-// disparities and weights as they are, so what it hands on is the solution of something else; and ten sweeps
-// reach four pixels far. The notes to the printed formula for going up a level are at `printed_sign`.
+// The paper's solver (F. L. Scandolo, thesis, 2019, section 4.3.3): a pyramid of half resolutions, ten Jacobi
+// sweeps per level, once from coarse to fine. For teaching and comparison: each level is a problem of its
+// own, with sampled disparities and weights as they are, so what it hands on is the solution of something
+// else; and ten sweeps reach four pixels far. The notes to the printed formula for going up a level are at
+// `printed_sign`.
 
 #include "stereo/grid_plane.h"
 #include "stereo/solver.h"
@@ -33,6 +34,8 @@ DisparityMap jacobi_sweeps(const DisparitySystem& system, DisparityMap x, int sw
 DisparityMap jacobi_sweeps_half(const DisparitySystem& system, DisparityMap x, int sweeps, const Exec& exec);
 
 /// The whole cascade; report.steps has one entry per level, without estimates: there are none to be had.
+/// Where params.verify asks for it, the report says how far the map is from the minimiser that solve() finds.
+/// params.method is not read.
 Solution solve_cascade(const DisparitySystem& system, const SolverParams& params, const Exec& exec);
 
 }  // namespace obscura

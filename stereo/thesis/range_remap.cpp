@@ -1,4 +1,4 @@
-#include "stereo/range_remap.h"
+#include "stereo/thesis/range_remap.h"
 
 #include <fmt/format.h>
 

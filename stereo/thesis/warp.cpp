@@ -1,6 +1,6 @@
 // Image warping with hole filling; see warp.h.
 
-#include "stereo/warp.h"
+#include "stereo/thesis/warp.h"
 
 #include <algorithm>
 #include <cmath>

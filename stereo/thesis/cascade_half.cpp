@@ -2,8 +2,9 @@
 // swept and narrowed again.
 
 #include "core/parallel.h"
-#include "stereo/cascade.h"
 #include "stereo/grid_rows.h"
+#include "stereo/thesis/cascade.h"
+#include "stereo/thesis/half_rows.h"
 
 namespace obscura {
 namespace {
