@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "core/scene.h"
 #include "core/types.h"
 #include "hierarchy/facets.h"
+#include "raster/intervals.h"
 
 namespace obscura {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/frame/scene_light.h"
 #include "app/frame/shadow_text.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -13,18 +14,6 @@ namespace {
 
 bool stopped(const std::atomic<bool>* cancel) {
     return cancel != nullptr && cancel->load(std::memory_order_relaxed);
-}
-
-TreeLayout layout_of(ShadowLayout layout) {
-    switch (layout) {
-        case ShadowLayout::words24:
-            return TreeLayout::words24;
-        case ShadowLayout::words16:
-            return TreeLayout::words16;
-        case ShadowLayout::bytes16:
-            return TreeLayout::bytes16;
-    }
-    return TreeLayout::words24;
 }
 
 std::uint64_t top_bytes(const ShadowTree& tree) {
@@ -49,7 +38,7 @@ std::uint64_t most_nodes(std::int64_t bytes) {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / bytes_per_node);
 }
 
-MultiresTree build_tree(const Mesh& mesh, const Light& light, const LightView& view, BuildParams params,
+MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,
                         std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
                         const std::atomic<bool>* cancel) {
     params.max_nodes = most_nodes(left_bytes);
@@ -61,15 +50,16 @@ MultiresTree build_tree(const Mesh& mesh, const Light& light, const LightView& v
     } catch (const LimitError& error) {
         throw LimitError(fmt::format(
             "light '{}', {} x {} texels: {}, more than fit into the {} MiB that limits.memory_mib leaves; {}",
-            light.id, view.width, view.height, error.what(), left_bytes >> 20,
+            light.light.id, view.width, view.height, error.what(), left_bytes >> 20,
             smaller_tree_text(light.shadow)));
     }
 }
 
 }  // namespace
 
-bool same_shadow(const Light& a, const Light& b) {
-    const ShadowSettings &s = a.shadow, &t = b.shadow;
+bool same_shadow(const SceneLight& x, const SceneLight& y) {
+    const Light &a = x.light, &b = y.light;
+    const ShadowSettings &s = x.shadow, &t = y.shadow;
     const bool same_light = a.kind == b.kind && a.direction == b.direction && a.position == b.position &&
                             a.outer_cone_deg == b.outer_cone_deg && a.near_m == b.near_m &&
                             a.range_m == b.range_m;
@@ -90,7 +80,7 @@ bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderS
 
 bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed, const Exec& exec,
                        std::int64_t most_bytes, LightShadow& shadow, const std::atomic<bool>* cancel) {
-    const Light& light = shadow.light;
+    const SceneLight& light = shadow.light;
     const std::vector<LightView> views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
     shadow.trees.clear();
     std::int64_t kept_bytes = 0;
@@ -106,7 +96,7 @@ bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed,
         }
         const Stopwatch encoding;
         EncodeParams encode;
-        encode.layout = layout_of(light.shadow.layout);
+        encode.layout = light.shadow.layout;
         encode.top_levels = std::min(light.shadow.top_levels, tree.levels);
         shadow.trees.push_back(encode_tree(tree, views[i], encode));
         shadow.stats.encode_s += encoding.seconds();

@@ -150,7 +150,7 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
 
 void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) {
     static constexpr const char* kinds[] = {"directional", "sun", "point", "spot"};
-    const Light& source = scene_.lights[light.scene_light];
+    const Light& source = scene_.lights[light.scene_light].light;
     const ref::LightTerms terms = ref::light_terms(work_->surface, light.shade, work_->shade, at);
     say("    light {} \"{}\" ({}): towards {}, n.l {:.6g}, irradiance {}", light.scene_light, source.id,
         kinds[static_cast<int>(source.kind)], text_of(terms.incident.to_light), terms.nl,

@@ -2,8 +2,8 @@
 // From a validated document to what is rendered.
 
 #include "app/scene/file_access.h"
+#include "app/scene/scene.h"
 #include "app/scene/scene_file.h"
-#include "core/scene.h"
 
 namespace obscura {
 
@@ -17,7 +17,7 @@ void set_frame(Scene& scene, const SceneDocument& document, double frame);
 
 /// The parts of a document that need no files.
 Camera camera_of(const SceneTable& camera);
-Light light_of(const SceneTable& light);
+SceneLight light_of(const SceneTable& light);
 Limits limits_of(const SceneDocument& document);
 RenderSettings render_settings_of(const SceneDocument& document);
 /// The lens at a frame, without the mask of a file; not enabled where the scene has no [optics].

@@ -72,14 +72,14 @@ ShadowSettings shadow_of(const SceneTable& table) {
     s.scope = choice<ShadowScope>(table, "scope", {"frame", "full"});
     s.filter = choice<ShadowFilter>(table, "filter", {"pcf", "hierarchical"});
     if (table.has("max_magnification")) s.max_magnification = number(table, "max_magnification");
-    s.layout = choice<ShadowLayout>(table, "layout", {"words24", "words16", "bytes16"});
+    s.layout = choice<TreeLayout>(table, "layout", {"words16", "words24", "bytes16"});
     s.top_levels = static_cast<int>(integer(table, "top_levels"));
     if (table.has("cache")) s.cache = text(table, "cache");
     return s;
 }
 
 /// Keys that only some shapes have.
-void set_shape(const SceneTable& table, OpticsSettings& o) {
+void set_shape(const SceneTable& table, ApertureShape& o) {
     const auto take = [&](const char* key, double& to) {
         if (table.has(key)) to = number(table, key);
     };
@@ -162,10 +162,11 @@ Camera camera_of(const SceneTable& table) {
     return camera;
 }
 
-Light light_of(const SceneTable& table) {
-    Light light;
+SceneLight light_of(const SceneTable& table) {
+    SceneLight result;
+    Light& light = result.light;
     light.id = text(table, "id");
-    light.shadow = shadow_of(subtable(table, "shadow"));
+    result.shadow = shadow_of(subtable(table, "shadow"));
     const std::string& type = text(table, "type");
     if (type == "sun") {
         light.kind = LightKind::sun;
@@ -186,7 +187,7 @@ Light light_of(const SceneTable& table) {
         light.inner_cone_deg = number(table, "inner_cone_deg");
         light.outer_cone_deg = number(table, "outer_cone_deg");
     }
-    return light;
+    return result;
 }
 
 Limits limits_of(const SceneDocument& document) {
@@ -219,14 +220,17 @@ OpticsSettings optics_of(const SceneDocument& document, double frame) {
     if (!document.root.has("optics")) return o;
     const SceneTable table = optics_at(document, frame), camera = camera_at(document, frame);
     o.enabled = true;
-    o.aperture = text(table, "aperture");
-    set_shape(table, o);
+    o.from_file = text(table, "aperture") == "file";
+    if (!o.from_file)
+        o.shape.kind = choice<ApertureKind>(
+            table, "aperture", {"iris", "circle", "box", "whirl", "annulus", "slit", "grating", "hexagons"});
+    set_shape(table, o.shape);
     o.dirt = dirt_of(table);
     o.f_number = number(table, "f_number");
     o.clip = number(table, "clip");
     o.mask_px = static_cast<int>(integer(table, "mask_px"));
-    o.light = text(table, "light");
-    o.temperature_kelvin = number(table, "temperature_kelvin");
+    o.light.source = choice<LightSource>(table, "light", {"d65", "equal", "blackbody", "sodium", "rgb_led"});
+    o.light.kelvin = number(table, "temperature_kelvin");
     const auto* count = std::get_if<std::int64_t>(&table.find("wavelengths")->value.data);
     o.wavelengths = count != nullptr ? static_cast<int>(*count) : 0;
     o.tolerance = number(table, "tolerance");

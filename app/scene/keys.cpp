@@ -1,6 +1,6 @@
 #include "app/scene/keys.h"
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 namespace {

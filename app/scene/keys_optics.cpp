@@ -1,7 +1,7 @@
 // Keys of the lens as far as it diffracts.
 
 #include "app/scene/keys.h"
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 namespace {
@@ -9,12 +9,14 @@ namespace {
 KeySpec rotation_key() {
     return number_key("rotation_deg", "Turns the shape, clockwise as the photographer sees it.")
         .in({-36000, 36000})
-        .or_else(OpticsSettings{}.rotation_deg)
+        .or_else(OpticsSettings{}.shape.rotation_deg)
         .animate();
 }
 
 KeySpec blades_key() {
-    return integer_key("blades", "How many.").in({3, 64}).or_else(std::int64_t{OpticsSettings{}.blades});
+    return integer_key("blades", "How many.")
+        .in({3, 64})
+        .or_else(std::int64_t{OpticsSettings{}.shape.blades});
 }
 
 std::vector<VariantSpec> aperture_variants() {
@@ -28,26 +30,28 @@ std::vector<VariantSpec> aperture_variants() {
         {"iris",
          "Straight or bowed blades around an opening.",
          {blades_key(),
-          number_key("bow", "0: straight edges, 1: a circle.").in({0, 1}).or_else(d.bow).animate(),
+          number_key("bow", "0: straight edges, 1: a circle.").in({0, 1}).or_else(d.shape.bow).animate(),
           rotation_key()}},
         {"circle", "Fully open.", {}},
         {"box",
          "A rectangle.",
-         {number_key("aspect", "Height / width.").in({1.0 / 64, 64}).or_else(d.aspect).animate(),
+         {number_key("aspect", "Height / width.").in({1.0 / 64, 64}).or_else(d.shape.aspect).animate(),
           rotation_key()}},
         {"whirl", "Curved openings around a hub.", {blades_key(), rotation_key()}},
         {"annulus",
          "A telescope: a circle less a central mirror and the vanes that hold it.",
          {number_key("obstruction", "Diameter of the mirror, share of the whole.")
               .in({0, 1, false, true})
-              .or_else(d.obstruction)
+              .or_else(d.shape.obstruction)
               .animate(),
-          count("vanes", "How many.", 0, 64, d.vanes), rotation_key()}},
-        {"slit", "Parallel slits.", {count("slits", "How many.", 1, 1024, d.slits), rotation_key()}},
-        {"grating", "Lines side by side.", {count("lines", "How many.", 1, 4096, d.lines), rotation_key()}},
+          count("vanes", "How many.", 0, 64, d.shape.vanes), rotation_key()}},
+        {"slit", "Parallel slits.", {count("slits", "How many.", 1, 1024, d.shape.slits), rotation_key()}},
+        {"grating",
+         "Lines side by side.",
+         {count("lines", "How many.", 1, 4096, d.shape.lines), rotation_key()}},
         {"hexagons",
          "A segmented mirror.",
-         {count("rings", "Rings of segments around the missing one in the middle.", 1, 32, d.rings),
+         {count("rings", "Rings of segments around the missing one in the middle.", 1, 32, d.shape.rings),
           rotation_key()}},
         {"file",
          "A mask; what it leaves open is as wide (its longer side) as the lens.",
@@ -160,7 +164,7 @@ std::vector<KeySpec> glare_keys() {
             .or_else("d65"),
         number_key("temperature_kelvin", "Of light = \"blackbody\".")
             .in({500, 1e6})
-            .or_else(d.temperature_kelvin)
+            .or_else(d.light.kelvin)
             .animate(),
         integer_key("wavelengths", "How many; \"auto\": as many as radius and tolerance need.")
             .in({1, 4096})

@@ -1,7 +1,7 @@
 // Keys of shadows.
 
 #include "app/scene/keys.h"
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "app/frame/scene_light.h"
 #include "bench/harness/peak_memory.h"
 #include "bench/shadows/shadow_bench.h"
 #include "core/parallel.h"

@@ -179,7 +179,7 @@ TEST(FrameGlare, PatternsAreKeptWhileTheLensStays) {
     render_frame(scene, {}, {}, cache, frame);
     EXPECT_TRUE(frame.stats.glare->kept);
     EXPECT_TRUE(same(frame, first)) << "no frame depends on those before it";
-    scene.optics.rotation_deg = 30;
+    scene.optics.shape.rotation_deg = 30;
     render_frame(scene, {}, {}, cache, frame);
     EXPECT_FALSE(frame.stats.glare->kept);
     EXPECT_FALSE(same(frame, first));
