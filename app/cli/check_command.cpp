@@ -10,12 +10,13 @@
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
+#include "app/frame/scene_light.h"
 #include "app/frame/shadow_text.h"
 #include "app/frame/shadows.h"
 #include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
+#include "app/scene/light_kinds.h"
 #include "app/scene/stereo_settings.h"
-#include "raster/shadow_map.h"
 #include "raster/view.h"
 
 namespace obscura {
@@ -50,20 +51,6 @@ std::string picture_text(const SceneDocument& document, const Scene& scene) {
     return out;
 }
 
-const char* kind_text(LightKind kind) {
-    switch (kind) {
-        case LightKind::directional:
-            return "directional";
-        case LightKind::sun:
-            return "sun";
-        case LightKind::point:
-            return "point";
-        case LightKind::spot:
-            return "spot";
-    }
-    return "";
-}
-
 /// ", texels of 34 mm": how fine the parallel light's map is; it covers all of the scene.
 std::string texel_text(const SceneLight& light, const Scene& scene) {
     if (!is_parallel(light.light.kind) || scene.mesh.triangles.empty()) return "";
@@ -94,7 +81,7 @@ bool open_casters(const Mesh& mesh) {
 /// `light`: its resolution as found.
 std::string light_text(const SceneLight& light, const std::optional<FoundResolution>& found,
                        const Scene& scene) {
-    std::string out = fmt::format("light     {}: {}", light.light.id, kind_text(light.light.kind));
+    std::string out = fmt::format("light     {}: {}", light.light.id, light_kind_name(light.light.kind));
     if (light.light.below_horizon) out += ", below the horizon in the first frame";
     const int maps = shadow_map_count(light);
     if (maps == 0) return out + ", no shadows\n";

@@ -55,27 +55,33 @@ MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightVi
     }
 }
 
+// What a shadow is made from: everything except what is named here as of no account, so that a setting which
+// is added later counts until someone finds that it need not.
+
+SceneLight shadow_part(SceneLight light) {
+    static const SceneLight d;
+    light.light.color = d.light.color;
+    light.light.inner_cone_deg = d.light.inner_cone_deg;
+    light.shadow.max_magnification = d.shadow.max_magnification;  // has settled the resolution
+    return light;
+}
+
+RenderSettings geometry_part(RenderSettings render) {
+    static const RenderSettings d;
+    render.exposure_ev = d.exposure_ev;
+    render.tone = d.tone;
+    render.receivers = d.receivers;  // a default that lights have taken
+    return render;
+}
+
 }  // namespace
 
-bool same_shadow(const SceneLight& x, const SceneLight& y) {
-    const Light &a = x.light, &b = y.light;
-    const ShadowSettings &s = x.shadow, &t = y.shadow;
-    const bool same_light = a.kind == b.kind && a.direction == b.direction && a.position == b.position &&
-                            a.outer_cone_deg == b.outer_cone_deg && a.near_m == b.near_m &&
-                            a.range_m == b.range_m;
-    const bool same_map = s.method == t.method && s.resolution == t.resolution &&
-                          s.receivers == t.receivers && s.filter_px == t.filter_px;
-    const bool same_tree = s.scope == t.scope && s.filter == t.filter && s.layout == t.layout &&
-                           s.top_levels == t.top_levels && s.normal_offset_texels == t.normal_offset_texels;
-    return same_light && same_map && (s.method != ShadowMethod::compressed || same_tree);
+bool same_shadow(const SceneLight& a, const SceneLight& b) {
+    return shadow_part(a) == shadow_part(b);
 }
 
 bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render) {
-    const Camera& c = shadow.camera;
-    return c.kind == camera.kind && c.eye == camera.eye && c.look_at == camera.look_at && c.up == camera.up &&
-           c.vfov_deg == camera.vfov_deg && c.height_m == camera.height_m && c.near_m == camera.near_m &&
-           shadow.render.width == render.width && shadow.render.height == render.height &&
-           shadow.render.samples == render.samples;
+    return shadow.camera == camera && geometry_part(shadow.render) == geometry_part(render);
 }
 
 bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed, const Exec& exec,

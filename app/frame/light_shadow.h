@@ -30,7 +30,7 @@ struct LightShadow {
     }
 };
 
-/// Whether what was made for `a` serves `b`, which differ in colour at most.
+/// Whether what was made for `a` serves `b`: all that reaches a shadow is equal.
 bool same_shadow(const SceneLight& a, const SceneLight& b);
 /// Whether lookups of one picture are those of the other.
 bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render);

@@ -47,12 +47,6 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
     return stats;
 }
 
-bool same_view(const LightView& a, const LightView& b) {
-    return a.to_map == b.to_map && a.width == b.width && a.height == b.height &&
-           a.perspective == b.perspective && a.near_w == b.near_w && a.min_depth == b.min_depth &&
-           a.max_depth == b.max_depth;
-}
-
 /// Reads the shadow from its file. False when there is none that serves. A file with the right key that holds
 /// something else than trees of these views is broken (InputError).
 bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey& key,
@@ -60,7 +54,7 @@ bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey
     std::string notice;
     shadow.trees = load_shadow_cache(file, key, notice);
     const auto serves = [](const ShadowTree& tree, const LightView& view) {
-        return same_view(tree.view, view);
+        return tree.view == view;
     };
     if (!shadow.trees.empty() &&
         !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {

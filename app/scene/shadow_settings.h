@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "app/scene/words.h"
 #include "hierarchy/tree_code.h"
 #include "raster/intervals.h"
 
@@ -14,6 +15,17 @@ enum class ShadowMethod { none, map, compressed };
 enum class ShadowScope { frame, full };
 /// `pcf`: a kernel of texels. `hierarchical`: of the squares that are as large as the pixel on the map.
 enum class ShadowFilter { pcf, hierarchical };
+
+inline constexpr Word<ShadowMethod> shadow_method_words[] = {
+    {"none", ShadowMethod::none}, {"map", ShadowMethod::map}, {"compressed", ShadowMethod::compressed}};
+inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope::frame},
+                                                           {"full", ShadowScope::full}};
+inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},
+                                                             {"hierarchical", ShadowFilter::hierarchical}};
+inline constexpr Word<TreeLayout> tree_layout_words[] = {
+    {"words24", TreeLayout::words24}, {"words16", TreeLayout::words16}, {"bytes16", TreeLayout::bytes16}};
+inline constexpr Word<Receivers> receivers_words[] = {{"any", Receivers::any},
+                                                      {"static", Receivers::static_only}};
 
 constexpr int auto_resolution = 0;
 constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "app/frame/memory.h"
 #include "app/frame/shadows.h"
 #include "app/scene/build.h"
 #include "tests/frame/scenes.h"

@@ -13,6 +13,7 @@
 #include "app/frame/lens.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/source_kernels.h"
+#include "app/report/lens_text.h"
 #include "app/report/render_stats.h"
 #include "app/scene/build.h"
 #include "core/error.h"

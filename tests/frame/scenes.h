@@ -2,6 +2,7 @@
 // Small scenes for the tests of frames.
 
 #include "app/frame/render_frame.h"
+#include "app/frame/scene_light.h"
 #include "core/hash.h"
 #include "core/num.h"
 #include "core/topology.h"

@@ -135,7 +135,7 @@ TEST_F(SceneBuild, SrgbColoursBecomeLinear) {
 
 TEST_F(SceneBuild, AzimuthIsClockwiseFromNorth) {
     const auto direction = [&](const std::string& keys) {
-        return build("[[light]]\nid = \"a\"\ntype = \"directional\"\n" + keys).lights.at(0).direction;
+        return build("[[light]]\nid = \"a\"\ntype = \"directional\"\n" + keys).lights.at(0).light.direction;
     };
     // North is -Z and east is +X; light travels away from where it comes from.
     EXPECT_EQ(direction("azimuth_deg = 0\nelevation_deg = 0"), (Vec3d{0, 0, 1}));

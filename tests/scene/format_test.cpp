@@ -29,13 +29,13 @@ namespace fs = std::filesystem;
 
 std::string committed_doc() {
     std::stringstream text;
-    text << std::ifstream(fs::path(OBSCURA_SOURCE_DIR) / "app/scene_format.md").rdbuf();
+    text << std::ifstream(fs::path(OBSCURA_SOURCE_DIR) / "app/scene/format.md").rdbuf();
     return text.str();
 }
 
 TEST(SceneFormat, DescriptionIsTheCommittedOne) {
     EXPECT_TRUE(scene_format_doc() == committed_doc())
-        << "app/scene_format.md is stale; write it anew: obscura dump --format > app/scene_format.md";
+        << "app/scene/format.md is stale; write it anew: obscura dump --format > app/scene/format.md";
 }
 
 /// Calls fn(table, keys of the table or of one of its variants) for everything below `spec`.
