@@ -34,6 +34,7 @@ struct View {
     bool perspective = false;
     double near_w = 0.0;
     float min_depth = 0.0f, max_depth = 1.0f;  ///< range that depths are clamped to
+    friend bool operator==(const View&, const View&) = default;
 };
 
 /// Texels [x0, x0 + width) x [y0, y0 + height) of a view or picture. Without texels it stands for all of it,

@@ -45,21 +45,21 @@ PcfView pcf_view(const LightView& view, Vec3d eye, double offset_texels) {
 
 }  // namespace
 
-PcfLight pcf_light(const Light& light, std::span<const LightView> views, Vec3d eye) {
+PcfLight pcf_light(const Light& light, const PcfParams& params, std::span<const LightView> views, Vec3d eye) {
     CHECK(views.size() == 1 || views.size() == 6);
     PcfLight p;
     p.views = static_cast<std::int32_t>(views.size());
     for (std::size_t i = 0; i < views.size(); ++i)
-        p.view[i] = pcf_view(views[i], eye, light.shadow.normal_offset_texels);
-    p.side = light.shadow.filter_px;
-    p.directional = light.kind == LightKind::directional || light.kind == LightKind::sun;
+        p.view[i] = pcf_view(views[i], eye, params.normal_offset_texels);
+    p.side = params.side;
+    p.directional = is_parallel(light.kind);
     set(p.to_light, to_float(-normalize(light.direction)));
     set(p.position, to_float(light.position - eye));
     return p;
 }
 
-PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye) {
-    PcfLight p = pcf_light(light, std::span(map.views), eye);
+PcfLight pcf_light(const Light& light, const PcfParams& params, const ShadowMap& map, Vec3d eye) {
+    PcfLight p = pcf_light(light, params, std::span(map.views), eye);
     for (std::size_t i = 0; i < map.views.size(); ++i) {
         CHECK(map.stored[i].size == p.view[i].size);
         p.view[i].stored = map.stored[i].depth.data();
@@ -67,11 +67,12 @@ PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye) {
     return p;
 }
 
-PcfLight pcf_light(const Light& light, std::span<const ShadowTree> trees, Vec3d eye) {
+PcfLight pcf_light(const Light& light, const PcfParams& params, std::span<const ShadowTree> trees,
+                   Vec3d eye) {
     std::vector<LightView> views;
     for (const ShadowTree& tree : trees)
         views.push_back(tree.view);
-    PcfLight p = pcf_light(light, views, eye);
+    PcfLight p = pcf_light(light, params, views, eye);
     CHECK(p.side % 2 == 1 && p.side >= 1 && p.side <= max_tree_pcf_side);
     for (std::size_t i = 0; i < trees.size(); ++i) {
         CHECK(p.view[i].size == 1 << trees[i].code.levels);

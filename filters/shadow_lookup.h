@@ -12,15 +12,20 @@
 
 namespace obscura {
 
-/// Where a light's lookups fall on maps with these views; without stored depths, for pcf_place().
-PcfLight pcf_light(const Light& light, std::span<const LightView> views, Vec3d eye);
+struct PcfParams {
+    int side = 3;  ///< of the kernel, texels: odd, to 5 (maps) or max_tree_pcf_side (trees)
+    double normal_offset_texels = 1.5;  ///< bias of receivers on open components
+};
 
-/// `map` must outlive the result. `eye`: the point that receivers are relative to.
-PcfLight pcf_light(const Light& light, const ShadowMap& map, Vec3d eye);
+/// Where a light's lookups fall on maps with these views; without stored depths, for pcf_place(). `eye`: the
+/// point that receivers are relative to.
+PcfLight pcf_light(const Light& light, const PcfParams& params, std::span<const LightView> views, Vec3d eye);
+
+/// `map` must outlive the result.
+PcfLight pcf_light(const Light& light, const PcfParams& params, const ShadowMap& map, Vec3d eye);
 
 /// The same with trees of the light's views, one or six, square; they must outlive the result.
-/// light.shadow.filter_px may be any odd number from 1 to max_tree_pcf_side.
-PcfLight pcf_light(const Light& light, std::span<const ShadowTree> trees, Vec3d eye);
+PcfLight pcf_light(const Light& light, const PcfParams& params, std::span<const ShadowTree> trees, Vec3d eye);
 
 /// Turns a light with trees, or still without, to hierarchical filtering, for pictures of that camera.
 void filter_hierarchically(PcfLight& light, const CameraRays& camera);

@@ -4,10 +4,11 @@
 #include "core/image.h"
 #include "core/isa.h"
 #include "core/pixel.h"
-#include "core/scene.h"
 #include "core/vec.h"
 
 namespace obscura {
+
+enum class ToneCurve { linear, filmic };
 
 struct ToneParams {
     double exposure_ev = 0.0;  ///< radiance is scaled by 2^exposure_ev

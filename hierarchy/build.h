@@ -8,10 +8,10 @@
 
 #include "core/isa.h"
 #include "core/mesh.h"
-#include "core/scene.h"
 #include "core/types.h"
 #include "hierarchy/multires.h"
 #include "hierarchy/needed_nodes.h"
+#include "raster/intervals.h"
 
 namespace obscura {
 

@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-#include "core/scene.h"
 #include "core/types.h"
 #include "core/union_find.h"
 #include "hierarchy/facets.h"
+#include "raster/intervals.h"
 
 namespace obscura {
 

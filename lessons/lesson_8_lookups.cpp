@@ -122,7 +122,7 @@ Image<Rgb8> lesson_8_lookups(const Exec& exec) {
         seen_surfaces(SeenMesh(mesh), camera, seen_width, seen_height, exec);
     Light sun;
     sun.direction = lesson_sun();
-    PcfLight light = pcf_light(sun, std::span(&tree, 1), camera.eye);
+    PcfLight light = pcf_light(sun, {}, std::span(&tree, 1), camera.eye);
     light.side = 5;
     const std::vector<ref::PcfSteps> steps = steps_of(blocks, light, exec);
     draw_steps(f, blocks, steps, 25 * (tree.code.levels + 1), {40, 170});

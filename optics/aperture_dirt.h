@@ -2,8 +2,8 @@
 // Apertures as they are: smeared, dusty, scratched, behind eyelashes, partly hidden.
 
 #include "core/image.h"
-#include "core/lens_dirt.h"
 #include "optics/aperture.h"
+#include "optics/lens_dirt.h"
 
 namespace obscura {
 

@@ -47,6 +47,8 @@ struct ApertureShape {
     int rings = 2;        ///< hexagons: 1 to 32
     double gap = 0.005;   ///< hexagons: share, between neighbours, in [0, 0.1]
     bool middle = false;  ///< hexagons: the central one, too
+
+    friend bool operator==(const ApertureShape&, const ApertureShape&) = default;
 };
 
 /// "iris", "circle", "box", "whirl", "annulus", "slit", "grating", "hexagons".

@@ -209,6 +209,11 @@ Vec3d observer_xyz(double wavelength_nm) {
             1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
 }
 
+const char* light_source_name(LightSource source) {
+    constexpr const char* names[] = {"d65", "equal", "blackbody", "sodium", "rgb_led", "monochromatic"};
+    return names[static_cast<int>(source)];
+}
+
 double spectral_power(const LightSpectrum& light, double wavelength_nm) {
     if (!(wavelength_nm >= shortest_visible_nm && wavelength_nm <= longest_visible_nm)) return 0;
     double sum = 0;

@@ -16,10 +16,14 @@ Vec3d observer_xyz(double wavelength_nm);
 
 enum class LightSource { d65, equal, blackbody, sodium, rgb_led, monochromatic };
 
+/// "d65", "equal", "blackbody", "sodium", "rgb_led", "monochromatic".
+const char* light_source_name(LightSource source);
+
 struct LightSpectrum {
     LightSource source = LightSource::d65;
     double kelvin = 6500;        ///< blackbody, [500, 1e6]
     double wavelength_nm = 550;  ///< monochromatic, [380, 780]
+    friend bool operator==(const LightSpectrum&, const LightSpectrum&) = default;
 };
 
 /// Relative radiant power per nanometre, of any scale; zero outside 380 to 780 nm.

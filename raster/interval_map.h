@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "core/scene.h"
 #include "core/types.h"
 #include "raster/depth_map.h"
 #include "raster/intervals.h"

@@ -16,11 +16,15 @@
 #include <cstdint>
 #include <span>
 
-#include "core/scene.h"
 #include "core/types.h"
 #include "raster/record.h"
 
 namespace obscura {
+
+/// Who receives shadows: `any` point outside solids (the papers' rule, for trees that are kept for receivers
+/// which the scene does not have), or only the scene's own surfaces, as in every picture of it: then the
+/// interval of an open crossing may reach up to the next surface, and open sheets cost no node per texel.
+enum class Receivers { any, static_only };
 
 /// One crossing of a texel's ray with a triangle.
 struct LayerCrossing {

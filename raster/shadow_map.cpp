@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/num.h"
 #include "core/parallel.h"
@@ -54,51 +55,46 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
     });
 }
 
-bool is_parallel(const Light& light) {
-    return light.kind == LightKind::directional || light.kind == LightKind::sun;
-}
-
 /// Of points and spots: to their own range.
-std::vector<LightView> lamp_views(const Light& light, int resolution) {
+std::vector<LightView> lamp_views(const Light& light, const ShadowViewParams& params) {
     // What a kernel reaches beyond its receiver's texel, and one more.
-    const int margin = light.shadow.filter_px / 2 + 1;
+    const int margin = params.filter_px / 2 + 1;
     if (light.kind == LightKind::point) {
-        return cube_light_views(light.position, light.near_m, light.range_m, resolution, margin);
+        return cube_light_views(light.position, light.near_m, light.range_m, params.resolution, margin);
     }
     // Wider than the cone by the margin. Nothing is wider than 170 degrees; beyond, the cone's rim takes the
     // map's border.
     const double cone = num::tan(light.outer_cone_deg * (num::pi / 180.0));
     return {tangent_light_view(light.position, light.direction,
-                               std::min(cone * margin_factor(resolution, margin), widest_tangent),
-                               light.near_m, light.range_m, resolution)};
+                               std::min(cone * margin_factor(params.resolution, margin), widest_tangent),
+                               light.near_m, light.range_m, params.resolution)};
 }
 
 }  // namespace
 
-std::vector<LightView> shadow_views(const Light& light, const Bounds& bounds) {
-    const int resolution = light.shadow.resolution;
-    if (!is_parallel(light)) return lamp_views(light, resolution);
-    return {orthographic_light_view(bounds, light.direction, resolution)};
+std::vector<LightView> shadow_views(const Light& light, const ShadowViewParams& params,
+                                    const Bounds& bounds) {
+    if (!is_parallel(light.kind)) return lamp_views(light, params);
+    return {orthographic_light_view(bounds, light.direction, params.resolution)};
 }
 
-std::vector<LightView> fitted_shadow_views(const Light& light, const Bounds& casters, int resolution) {
-    if (!is_parallel(light)) return lamp_views(light, resolution);
-    return {fitted_light_view(casters, light.direction, resolution)};
+std::vector<LightView> fitted_shadow_views(const Light& light, const ShadowViewParams& params,
+                                           const Bounds& casters) {
+    if (!is_parallel(light.kind)) return lamp_views(light, params);
+    return {fitted_light_view(casters, light.direction, params.resolution)};
 }
 
-std::int64_t dense_map_bytes(const Light& light) {
-    if (light.shadow.method == ShadowMethod::none || light.below_horizon) return 0;
-    const std::int64_t views = light.kind == LightKind::point ? 6 : 1;
-    return views * light.shadow.resolution * light.shadow.resolution *
+std::int64_t dense_map_bytes(LightKind kind, int resolution) {
+    return std::int64_t{shadow_view_count(kind)} * resolution * resolution *
            static_cast<std::int64_t>(sizeof(float));
 }
 
-bool build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
+bool build_shadow_map(const Mesh& mesh, std::vector<LightView> views, Receivers receivers, const Exec& exec,
                       RasterScratch& scratch, ShadowMap& map, const std::atomic<bool>* cancel) {
-    map.views = shadow_views(light, bounds);
+    map.views = std::move(views);
     map.stored.resize(map.views.size());
     for (std::size_t i = 0; i < map.views.size() && !stopped(cancel); ++i) {
-        render_view(mesh, map.views[i], light.shadow.receivers, exec, scratch, cancel, map.stored[i]);
+        render_view(mesh, map.views[i], receivers, exec, scratch, cancel, map.stored[i]);
     }
     if (!stopped(cancel)) return true;
     map.views.clear();

@@ -38,21 +38,28 @@ struct ShadowMap {
     std::vector<StoredDepths> stored;  ///< as views: depth of each texel, 1 where nothing is
 };
 
-/// Views that a light's map needs: for directional lights and the sun fitted to `bounds` (of casters and
-/// receivers), for the others to the light's own range.
-std::vector<LightView> shadow_views(const Light& light, const Bounds& bounds);
+/// What a light's views depend on beside the light.
+struct ShadowViewParams {
+    int resolution = 1024;  ///< texels per side
+    int filter_px = 3;      ///< side of the kernel that reads the map: lamps' views are wider by its reach
+};
 
-/// Views of the same light for a map that is not dense, `resolution` texels a side: of directional lights and
-/// the sun fitted to `casters`, as caster_box() finds it.
-std::vector<LightView> fitted_shadow_views(const Light& light, const Bounds& casters, int resolution);
+/// Views that a light's map needs: of parallel light fitted to `bounds` (of casters and receivers), of others
+/// to the light's own range.
+std::vector<LightView> shadow_views(const Light& light, const ShadowViewParams& params, const Bounds& bounds);
 
-/// Memory of the map that build_shadow_map() would make, bytes.
-std::int64_t dense_map_bytes(const Light& light);
+/// Views of the same light for a map that is not dense: of parallel light fitted to `casters`, as
+/// caster_box() finds it.
+std::vector<LightView> fitted_shadow_views(const Light& light, const ShadowViewParams& params,
+                                           const Bounds& casters);
 
-/// Renders the map of `light` tile by tile; only stored depths are kept. `map` may hold an earlier map: its
-/// memory is used again.
+/// Memory of a dense map of such a light, bytes.
+std::int64_t dense_map_bytes(LightKind kind, int resolution);
+
+/// Renders the map of a light with these views tile by tile; only stored depths are kept. `map` may hold an
+/// earlier map: its memory is used again.
 /// False when `cancel` was set meanwhile (asked for every row of tiles): the map is then without views.
-bool build_shadow_map(const Mesh& mesh, const Light& light, const Bounds& bounds, const Exec& exec,
+bool build_shadow_map(const Mesh& mesh, std::vector<LightView> views, Receivers receivers, const Exec& exec,
                       RasterScratch& scratch, ShadowMap& map, const std::atomic<bool>* cancel = nullptr);
 
 /// Metres that a texel of the view spans, the longer way: everywhere (orthographic), or at distance 1

@@ -7,15 +7,16 @@
 #include <optional>
 #include <vector>
 
-#include "app/report/lens_text.h"
-#include "app/frame/render_frame.h"
-#include "app/frame/shadow_text.h"
-#include "app/frame/shadows.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
+#include "app/frame/render_frame.h"
+#include "app/frame/scene_light.h"
+#include "app/frame/shadow_text.h"
+#include "app/frame/shadows.h"
+#include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
+#include "app/scene/light_kinds.h"
 #include "app/scene/stereo_settings.h"
-#include "raster/shadow_map.h"
 #include "raster/view.h"
 
 namespace obscura {
@@ -50,33 +51,18 @@ std::string picture_text(const SceneDocument& document, const Scene& scene) {
     return out;
 }
 
-const char* kind_text(LightKind kind) {
-    switch (kind) {
-        case LightKind::directional:
-            return "directional";
-        case LightKind::sun:
-            return "sun";
-        case LightKind::point:
-            return "point";
-        case LightKind::spot:
-            return "spot";
-    }
-    return "";
-}
-
 /// ", texels of 34 mm": how fine the parallel light's map is; it covers all of the scene.
-std::string texel_text(const Light& light, const Scene& scene) {
-    const bool parallel = light.kind == LightKind::directional || light.kind == LightKind::sun;
-    if (!parallel || scene.mesh.triangles.empty()) return "";
+std::string texel_text(const SceneLight& light, const Scene& scene) {
+    if (!is_parallel(light.light.kind) || scene.mesh.triangles.empty()) return "";
     const int n = light.shadow.resolution;
     const LightView view =
         light.shadow.method == ShadowMethod::map
-            ? orthographic_light_view(bounds_of(scene.mesh), light.direction, n)
-            : fitted_light_view(caster_box(scene.mesh, light.direction), light.direction, n);
+            ? shadow_views(light, bounds_of(scene.mesh))[0]
+            : fitted_shadow_views(light, caster_box(scene.mesh, light.light.direction), n)[0];
     return fmt::format(", texels of {:.3g} mm", 1000 * texel_size_m(view));
 }
 
-std::string tree_text(const Light& light) {
+std::string tree_text(const SceneLight& light) {
     const ShadowSettings& s = light.shadow;
     std::string out = s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
     if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
@@ -93,9 +79,10 @@ bool open_casters(const Mesh& mesh) {
 }
 
 /// `light`: its resolution as found.
-std::string light_text(const Light& light, const std::optional<FoundResolution>& found, const Scene& scene) {
-    std::string out = fmt::format("light     {}: {}", light.id, kind_text(light.kind));
-    if (light.below_horizon) out += ", below the horizon in the first frame";
+std::string light_text(const SceneLight& light, const std::optional<FoundResolution>& found,
+                       const Scene& scene) {
+    std::string out = fmt::format("light     {}: {}", light.light.id, light_kind_name(light.light.kind));
+    if (light.light.below_horizon) out += ", below the horizon in the first frame";
     const int maps = shadow_map_count(light);
     if (maps == 0) return out + ", no shadows\n";
     const bool dense = light.shadow.method == ShadowMethod::map;
@@ -111,7 +98,7 @@ std::string light_text(const Light& light, const std::optional<FoundResolution>&
         out += fmt::format(
             "note      light '{}': open surfaces under receivers = \"any\": the tree may need {} x {} "
             "nodes\n",
-            light.id, n, n);
+            light.light.id, n, n);
     }
     return out;
 }
@@ -119,7 +106,7 @@ std::string light_text(const Light& light, const std::optional<FoundResolution>&
 /// Puts what "auto" means for the first frame in the lights' places.
 std::vector<std::optional<FoundResolution>> settle_resolutions(Scene& scene, const Exec& exec) {
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
-    const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const SceneLight& light) {
         return casts_shadows(light) && light.shadow.resolution == auto_resolution;
     });
     if (!any || scene.mesh.triangles.empty()) return found;

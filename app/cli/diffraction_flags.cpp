@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
 #include "app/scene/aperture_file.h"
+#include "app/scene/dirt_rows.h"
 #include "app/scene/schema.h"
 #include "core/error.h"
 
@@ -99,7 +102,7 @@ struct Texts {
     double decades = 0;
     std::int64_t mask = 1024, size = 1024, finest = 0, blades = 7, lines = 16, slits = 1, vanes = 4,
                  rings = 2, wavelengths = 0, memory = 4096, threads = 0;
-    std::int64_t dust = 0, scratches = 0, eyelashes = 0;
+    std::map<std::string, std::int64_t> dirt_counts;
 };
 
 void add_aperture_flags(Flags& flags, Texts& t, ApertureShape& shape) {
@@ -129,39 +132,54 @@ void add_aperture_flags(Flags& flags, Texts& t, ApertureShape& shape) {
                 "Use the mask at 1 / 2^N of its size, each texel open or closed.", "0");
 }
 
-void add_dirt_flags(Flags& flags, Texts& t, LensDirt& dirt) {
-    flags.group("Dirt; lengths are shares of the mask's longer side");
-    flags.whole("--seed", "N", dirt.seed, 0, 4294967295, "Where whatever is random lies.", "1");
-    flags.number("--noise", "SHARE", dirt.noise, 0, 1, "Smears: most amplitude they take away.", "0");
-    flags.number("--noise-cell", "SHARE", dirt.noise_cell, 1.0 / 1024, 1, "Size of the largest.", "0.1");
-    flags.number("--noise-stretch", "RATIO", dirt.noise_stretch, 1, 64, "Their length / width.", "1");
-    flags.number("--noise-angle-deg", "DEG", dirt.noise_angle_deg, -36000, 36000,
-                 "Direction of their length, clockwise from the right.", "0");
-    flags.whole("--dust", "N", t.dust, 0, 10000, "Grains.", "0");
-    flags.number("--dust-radius", "SHARE", dirt.dust_radius, 1e-6, 0.5, "Of the largest.", "0.01");
-    flags.number("--dust-softness", "SHARE", dirt.dust_softness, 0, 1, "0 hard edges, 1 soft ones.", "0");
-    flags.whole("--scratches", "N", t.scratches, 0, 10000, "Dark lines.", "0");
-    flags.number("--scratch-width", "SHARE", dirt.scratch_width, 1e-6, 0.1, "Of the widest.", "0.001");
-    flags.number("--scratch-length", "SHARE", dirt.scratch_length, 1e-6, 2, "Of the longest.", "0.5");
-    flags.number("--scratch-spread-deg", "DEG", dirt.scratch_spread_deg, 0, 180,
-                 "Their directions lie this far around the vertical.", "180");
-    flags.whole("--eyelashes", "N", t.eyelashes, 0, 1000, "Hairs that hang from the upper side.", "0");
-    flags.number("--eyelash-width", "SHARE", dirt.eyelash_width, 1e-6, 0.1, "At the root.", "0.01");
-    flags.number("--eyelash-length", "SHARE", dirt.eyelash_length, 1e-6, 2, "Of the longest.", "0.6");
-    flags.text("--occluder", "KIND", t.occluder,
-               "A circle moved over the opening: housing (light passes inside only) or disc (outside only).",
-               "none");
-    flags.number("--occluder-diameter", "SHARE", dirt.occluder_diameter, 1e-6, 4, "Its diameter.", "1");
-    flags.number("--occluder-x", "SHARE", dirt.occluder_x, -2, 2, "Right of the mask's middle.", "0");
-    flags.number("--occluder-y", "SHARE", dirt.occluder_y, -2, 2, "Below the mask's middle.", "0");
+/// A key's default as the help shows it.
+std::string flag_default(const SceneValue& value) {
+    const auto* word = std::get_if<std::string>(&value.data);
+    if (word != nullptr) return *word;
+    const auto* whole = std::get_if<std::int64_t>(&value.data);
+    return whole != nullptr ? fmt::format("{}", *whole) : fmt::format("{}", std::get<double>(value.data));
 }
 
-Occluder occluder_value(const std::string& text) {
-    constexpr std::array kinds = {Occluder::none, Occluder::housing, Occluder::disc};
-    return named_value("--occluder", text, kinds, [](Occluder kind) {
-        constexpr const char* names[] = {"none", "housing", "disc"};
-        return names[static_cast<int>(kind)];
-    });
+std::string flag_of(const KeySpec& key) {
+    std::string flag = "--" + key.name;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    return flag;
+}
+
+/// Numbers that a key may only approach begin here.
+constexpr double least_share = 1e-6;
+
+/// Counts and the occluder are taken from `t` once the flags are read.
+void add_dirt_flags(Flags& flags, Texts& t, LensDirt& dirt) {
+    flags.group("Dirt; lengths are shares of the mask's longer side");
+    for (const DirtRow& row : dirt_rows()) {
+        const KeySpec& key = row.row.key;
+        const std::string flag = flag_of(key), shown = flag_default(*key.fallback);
+        const auto low = static_cast<std::int64_t>(key.range.lo),
+                   high = static_cast<std::int64_t>(key.range.hi);
+        if (const auto* real = std::get_if<double LensDirt::*>(&row.member)) {
+            flags.number(flag, row.flag_value, dirt.**real, key.range.open_lo ? least_share : key.range.lo,
+                         key.range.hi, row.flag_doc, shown);
+        } else if (const auto* whole = std::get_if<std::int64_t LensDirt::*>(&row.member)) {
+            flags.whole(flag, row.flag_value, dirt.**whole, low, high, row.flag_doc, shown);
+        } else if (std::holds_alternative<int LensDirt::*>(row.member)) {
+            flags.whole(flag, row.flag_value, t.dirt_counts[key.name], low, high, row.flag_doc, shown);
+        } else {
+            flags.text(flag, row.flag_value, t.occluder, row.flag_doc, shown);
+        }
+    }
+}
+
+void set_dirt(const Texts& t, LensDirt& dirt) {
+    for (const DirtRow& row : dirt_rows()) {
+        if (const auto* count = std::get_if<int LensDirt::*>(&row.member))
+            dirt.** count = static_cast<int>(t.dirt_counts.at(row.row.key.name));
+    }
+    std::array<Occluder, std::size(occluder_words)> kinds;
+    std::transform(std::begin(occluder_words), std::end(occluder_words), kinds.begin(),
+                   [](const Word<Occluder>& word) { return word.value; });
+    dirt.occluder = named_value("--occluder", t.occluder, kinds,
+                                [](Occluder kind) { return name_of(occluder_words, kind); });
 }
 
 void add_pattern_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
@@ -308,10 +326,7 @@ int run_diffraction(const Arguments& arguments) {
     shape.slits = static_cast<int>(t.slits);
     shape.lines = static_cast<int>(t.lines);
     options.shape = shape;
-    options.dirt.dust = static_cast<int>(t.dust);
-    options.dirt.scratches = static_cast<int>(t.scratches);
-    options.dirt.eyelashes = static_cast<int>(t.eyelashes);
-    options.dirt.occluder = occluder_value(t.occluder);
+    set_dirt(t, options.dirt);
     options.mask_px = static_cast<int>(t.mask);
     options.finest_level = static_cast<int>(t.finest);
     options.size_px = static_cast<int>(t.size);

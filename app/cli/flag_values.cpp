@@ -111,13 +111,12 @@ Isa isa_value(const std::string& flag, std::string_view text) {
 std::vector<Aov> aov_values(const std::string& flag, std::string_view text) {
     std::vector<Aov> aovs;
     for (const std::string_view part : split(text, ',')) {
-        const auto found = std::find(aov_names.begin() + 1, aov_names.end(), part);
-        if (found == aov_names.end()) {
-            reject(flag, part,
-                   "one of depth, normal, albedo, object, shadow" +
-                       hint(part, {aov_names.begin() + 1, aov_names.end()}));
-        }
-        const Aov aov = static_cast<Aov>(found - aov_names.begin());
+        // Beauty is always written.
+        std::vector<std::string> names = names_of(aov_words);
+        names.erase(names.begin());
+        if (std::find(names.begin(), names.end(), part) == names.end())
+            reject(flag, part, "one of depth, normal, albedo, object, shadow" + hint(part, names));
+        const Aov aov = value_named(aov_words, part);
         if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
     }
     return aovs;

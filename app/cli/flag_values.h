@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/scene/keyframes.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 
 namespace obscura {
 

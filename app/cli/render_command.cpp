@@ -11,13 +11,13 @@
 #include "app/cli/flag_values.h"
 #include "app/cli/progress.h"
 #include "app/cli/signals.h"
+#include "app/frame/load_scene.h"
+#include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/shadow_text.h"
 #include "app/report/picture_file.h"
 #include "app/report/pixel_trace.h"
 #include "app/report/render_stats.h"
-#include "app/frame/load_scene.h"
-#include "app/frame/memory.h"
 #include "app/scene/keyframes.h"
 #include "core/edges.h"
 #include "core/error.h"
@@ -184,7 +184,7 @@ void say_notes(const Scene& scene, int frame) {
     });
     if (!solid)
         fmt::print(stderr, "obscura: note: no mesh has a triangle with an area; only the sky is seen\n");
-    for (const Light& light : scene.lights) {
+    for (const auto& [light, shadow] : scene.lights) {
         if (!light.below_horizon) continue;
         fmt::print(stderr, "obscura: note: light '{}' is below the horizon in frame {} and sheds no light\n",
                    light.id, frame);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/report/output_plan.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 
 namespace obscura {
 

@@ -9,13 +9,13 @@
 #include "app/cli/flag_values.h"
 #include "app/cli/progress.h"
 #include "app/cli/signals.h"
+#include "app/frame/load_scene.h"
+#include "app/frame/memory.h"
 #include "app/pair/pair.h"
 #include "app/report/pair_notes.h"
 #include "app/report/pair_page.h"
 #include "app/report/pair_pictures.h"
 #include "app/report/pair_stats.h"
-#include "app/frame/load_scene.h"
-#include "app/frame/memory.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/stereo_settings.h"
 #include "core/error.h"
@@ -112,10 +112,9 @@ void set_stereo_frame(Scene& scene, const StereoPlan& plan, const StereoOptions&
     set_frame(scene, plan.document, frame);
     if (!options.preview) return;
     scene.render.samples = 1;
-    for (Light& light : scene.lights) {
-        ShadowSettings& shadow = light.shadow;
+    for (auto& [light, shadow] : scene.lights) {
         if (shadow.method == ShadowMethod::none) continue;
-        const int most = light.kind == LightKind::point ? 512 : 2048;
+        const int most = shadow_view_count(light.kind) > 1 ? 512 : 2048;
         const bool automatic = shadow.resolution == auto_resolution;
         shadow.method = ShadowMethod::map;
         shadow.resolution = automatic ? most : std::min(shadow.resolution, most);

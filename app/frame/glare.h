@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "app/frame/frame.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 
 namespace obscura {
 

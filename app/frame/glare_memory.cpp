@@ -25,7 +25,7 @@ double cycles_per_pixel(const OpticsSettings& optics, const RenderSettings& rend
 }
 
 std::int64_t mask_side(const OpticsSettings& optics) {
-    return optics.aperture == "file" ? std::max(optics.mask.width, optics.mask.height) : optics.mask_px;
+    return optics.from_file ? std::max(optics.mask.width, optics.mask.height) : optics.mask_px;
 }
 
 /// Cells of power that are summed at a time. They are not narrower than a 16th of a pixel (less for fine
@@ -68,7 +68,7 @@ std::int64_t kernel_count(const OpticsSettings& optics, std::int64_t pixels, std
 
 std::int64_t finest_mask_side(const OpticsSettings& optics, const RenderSettings& render) {
     std::int64_t side = mask_side(optics);
-    if (optics.aperture == "file") return side;
+    if (optics.from_file) return side;
     const double highest = (optics.radius_px + 0.5) * cycles_per_pixel(optics, render);
     while (highest / static_cast<double>(side) > faithful_cycles_per_texel && 2 * side <= finest_mask)
         side *= 2;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 

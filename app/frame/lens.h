@@ -1,7 +1,7 @@
 #pragma once
 // The scene's lens in the terms of optics/: its aperture, and what its picture of a point of light needs.
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 #include "optics/aperture.h"
 #include "optics/far_field.h"
 #include "optics/glare.h"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/frame/scene_light.h"
 #include "app/frame/shadow_text.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -13,18 +14,6 @@ namespace {
 
 bool stopped(const std::atomic<bool>* cancel) {
     return cancel != nullptr && cancel->load(std::memory_order_relaxed);
-}
-
-TreeLayout layout_of(ShadowLayout layout) {
-    switch (layout) {
-        case ShadowLayout::words24:
-            return TreeLayout::words24;
-        case ShadowLayout::words16:
-            return TreeLayout::words16;
-        case ShadowLayout::bytes16:
-            return TreeLayout::bytes16;
-    }
-    return TreeLayout::words24;
 }
 
 std::uint64_t top_bytes(const ShadowTree& tree) {
@@ -38,7 +27,7 @@ std::uint64_t most_nodes(std::int64_t bytes) {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / bytes_per_node);
 }
 
-MultiresTree build_tree(const Mesh& mesh, const Light& light, const LightView& view, BuildParams params,
+MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,
                         std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
                         const std::atomic<bool>* cancel) {
     params.max_nodes = most_nodes(left_bytes);
@@ -50,36 +39,43 @@ MultiresTree build_tree(const Mesh& mesh, const Light& light, const LightView& v
     } catch (const LimitError& error) {
         throw LimitError(fmt::format(
             "light '{}', {} x {} texels: {}, more than fit into the {} MiB that limits.memory_mib leaves; {}",
-            light.id, view.width, view.height, error.what(), left_bytes >> 20,
+            light.light.id, view.width, view.height, error.what(), left_bytes >> 20,
             smaller_tree_text(light.shadow)));
     }
 }
 
+// What a shadow is made from: everything except what is named here as of no account, so that a setting which
+// is added later counts until someone finds that it need not.
+
+SceneLight shadow_part(SceneLight light) {
+    static const SceneLight d;
+    light.light.color = d.light.color;
+    light.light.inner_cone_deg = d.light.inner_cone_deg;
+    light.shadow.max_magnification = d.shadow.max_magnification;  // has settled the resolution
+    return light;
+}
+
+RenderSettings geometry_part(RenderSettings render) {
+    static const RenderSettings d;
+    render.exposure_ev = d.exposure_ev;
+    render.tone = d.tone;
+    render.receivers = d.receivers;  // a default that lights have taken
+    return render;
+}
+
 }  // namespace
 
-bool same_shadow(const Light& a, const Light& b) {
-    const ShadowSettings &s = a.shadow, &t = b.shadow;
-    const bool same_light = a.kind == b.kind && a.direction == b.direction && a.position == b.position &&
-                            a.outer_cone_deg == b.outer_cone_deg && a.near_m == b.near_m &&
-                            a.range_m == b.range_m;
-    const bool same_map = s.method == t.method && s.resolution == t.resolution &&
-                          s.receivers == t.receivers && s.filter_px == t.filter_px;
-    const bool same_tree = s.scope == t.scope && s.filter == t.filter && s.layout == t.layout &&
-                           s.top_levels == t.top_levels && s.normal_offset_texels == t.normal_offset_texels;
-    return same_light && same_map && (s.method != ShadowMethod::compressed || same_tree);
+bool same_shadow(const SceneLight& a, const SceneLight& b) {
+    return shadow_part(a) == shadow_part(b);
 }
 
 bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render) {
-    const Camera& c = shadow.camera;
-    return c.kind == camera.kind && c.eye == camera.eye && c.look_at == camera.look_at && c.up == camera.up &&
-           c.vfov_deg == camera.vfov_deg && c.height_m == camera.height_m && c.near_m == camera.near_m &&
-           shadow.render.width == render.width && shadow.render.height == render.height &&
-           shadow.render.samples == render.samples;
+    return shadow.camera == camera && geometry_part(shadow.render) == geometry_part(render);
 }
 
 bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed, const Exec& exec,
                        std::int64_t most_bytes, LightShadow& shadow, const std::atomic<bool>* cancel) {
-    const Light& light = shadow.light;
+    const SceneLight& light = shadow.light;
     const std::vector<LightView> views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
     shadow.trees.clear();
     std::int64_t kept_bytes = 0;
@@ -95,7 +91,7 @@ bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed,
         }
         const Stopwatch encoding;
         EncodeParams encode;
-        encode.layout = layout_of(light.shadow.layout);
+        encode.layout = light.shadow.layout;
         encode.top_levels = std::min(light.shadow.top_levels, tree.levels);
         shadow.trees.push_back(encode_tree(tree, views[i], encode));
         shadow.stats.encode_s += encoding.seconds();

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/frame/light_shadow_stats.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "hierarchy/needed_nodes.h"
 #include "hierarchy/shadow_tree.h"
 #include "raster/shadow_map.h"
@@ -15,8 +15,8 @@
 namespace obscura {
 
 struct LightShadow {
-    Light light;    ///< what it was made for; its resolution as found
-    Camera camera;  ///< and for this picture, when scope is "frame"
+    SceneLight light;  ///< what it was made for; its resolution as found
+    Camera camera;     ///< and for this picture, when scope is "frame"
     RenderSettings render;
     Bounds casters;  ///< caster_box() for the light's direction, when it is parallel
     ShadowMap map;
@@ -30,8 +30,8 @@ struct LightShadow {
     }
 };
 
-/// Whether what was made for `a` serves `b`, which differ in colour at most.
-bool same_shadow(const Light& a, const Light& b);
+/// Whether what was made for `a` serves `b`: all that reaches a shadow is equal.
+bool same_shadow(const SceneLight& a, const SceneLight& b);
 /// Whether lookups of one picture are those of the other.
 bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render);
 

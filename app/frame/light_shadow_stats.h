@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 #include "hierarchy/build.h"
 
 namespace obscura {

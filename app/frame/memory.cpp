@@ -97,7 +97,7 @@ std::int64_t work_bytes(const Scene& scene) {
                          static_cast<std::int64_t>(mesh.triangles.size() * sizeof(SurfaceTriangle) +
                                                    mesh.positions.size() * sizeof(SurfaceVertex));
     std::int64_t light = 0;
-    for (const Light& l : scene.lights) {
+    for (const SceneLight& l : scene.lights) {
         bytes += needed_bytes(scene.render, l.shadow);
         if (l.shadow.method == ShadowMethod::map) {
             light = std::max(light, view_bytes(mesh, l.shadow.resolution, l.shadow.resolution));
@@ -114,12 +114,12 @@ double mib(std::int64_t bytes) {
 
 }  // namespace
 
-int shadow_map_count(const Light& light) {
+int shadow_map_count(const SceneLight& light) {
     if (light.shadow.method == ShadowMethod::none) return 0;
-    return light.kind == LightKind::point ? 6 : 1;
+    return shadow_view_count(light.light.kind);
 }
 
-std::int64_t shadow_map_bytes(const Light& light) {
+std::int64_t shadow_map_bytes(const SceneLight& light) {
     const ShadowSettings& s = light.shadow;
     const std::int64_t views = shadow_map_count(light);
     if (s.method == ShadowMethod::map) {
@@ -139,7 +139,7 @@ MemoryEstimate estimate_memory(const Scene& scene) {
             e.textures += static_cast<std::int64_t>(level.pixels.size() * sizeof(Vec3f));
         }
     }
-    for (const Light& light : scene.lights)
+    for (const SceneLight& light : scene.lights)
         e.shadow_maps += shadow_map_bytes(light);
     e.frame = picture_bytes(scene.render) + work_bytes(scene) +
               glare_bytes(scene.optics, scene.render, lamp_count(scene));

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "app/scene/scene.h"
 #include "app/scene/scene_file.h"
-#include "core/scene.h"
 
 namespace obscura {
 
@@ -26,8 +26,8 @@ MemoryEstimate estimate_memory(const SceneDocument& document);
 
 /// Maps of a light: none without shadows, six for a point light; and the bytes that lookups read of them,
 /// exact for dense maps, expected for compressed ones.
-int shadow_map_count(const Light& light);
-std::int64_t shadow_map_bytes(const Light& light);
+int shadow_map_count(const SceneLight& light);
+std::int64_t shadow_map_bytes(const SceneLight& light);
 
 /// Throws LimitError when `estimate` exceeds limits.memory_mib.
 void check_memory(const MemoryEstimate& estimate, const Limits& limits, const std::string& scene_name);

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "app/frame/memory.h"
 #include "app/frame/shadows.h"
 #include "app/frame/source_kernels.h"
 #include "app/frame/tiles.h"
-#include "app/frame/memory.h"
 #include "core/stopwatch.h"
 #include "raster/lighting.h"
 
@@ -46,7 +46,7 @@ TileScene tile_scene(const Scene& scene, int width, int height, int samples) {
                                                         [](const Material& m) { return m.texture >= 0; });
     t.sky = shade_sky(scene.sky);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
+        const Light& light = scene.lights[i].light;
         if (!sheds_light(light)) continue;
         TileLight& tile_light = t.lights.emplace_back();
         tile_light.scene_light = i;

@@ -9,8 +9,8 @@
 #include "app/frame/light_shadow.h"
 #include "app/frame/tile.h"
 #include "app/scene/file_access.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "hierarchy/tree_file.h"
 #include "raster/surface.h"
 

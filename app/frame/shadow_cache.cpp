@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes when the same inputs give other trees.
-constexpr std::uint32_t construction_version = 1;
+constexpr std::uint32_t construction_version = 2;
 
 /// Two halves of a key; large arrays enter both by one hash of 64 bits.
 class KeyHasher {
@@ -66,7 +66,8 @@ TreeFileKey geometry_key(const Mesh& mesh) {
     return hasher.key();
 }
 
-TreeFileKey shadow_key(const TreeFileKey& geometry, const Light& light, const std::vector<LightView>& views) {
+TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
+                       const std::vector<LightView>& views) {
     KeyHasher hasher;
     hasher.add(construction_version);
     hasher.add(geometry.high);

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "app/scene/file_access.h"
-#include "core/scene.h"
+#include "app/scene/scene.h"
 #include "hierarchy/shadow_tree.h"
 #include "hierarchy/tree_file.h"
 
 namespace obscura {
 
-/// The folder that light.shadow.cache names, canonical, whether it is there or not. What counts is where it
-/// leads: inside the scene's folder or an allowed one, as for every file that a scene names. Throws
+/// The folder that a light's shadow.cache names, canonical, whether it is there or not. What counts is where
+/// it leads: inside the scene's folder or an allowed one, as for every file that a scene names. Throws
 /// InputError when it leads elsewhere or when something else than a folder is there.
 std::filesystem::path shadow_cache_folder(const FileAccess& access, const std::string& cache);
 
@@ -22,7 +22,8 @@ std::filesystem::path shadow_cache_folder(const FileAccess& access, const std::s
 TreeFileKey geometry_key(const Mesh& mesh);
 
 /// What a light's trees are made from: geometry, views, and the settings that reach the trees.
-TreeFileKey shadow_key(const TreeFileKey& geometry, const Light& light, const std::vector<LightView>& views);
+TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
+                       const std::vector<LightView>& views);
 
 /// Trees of an earlier run, or none. `notice`: why a file that is there could not be used, empty otherwise.
 /// Throws InputError when the file is broken: cut short, altered, not of this kind.

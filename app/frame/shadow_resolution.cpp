@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/frame/scene_light.h"
 #include "core/parallel.h"
 #include "core/vec_arrays.h"
 #include "filters/shadow_lookup.h"
@@ -92,8 +93,9 @@ std::vector<Need> needs_of_tiles(const TileScene& tiles, std::span<const Resolut
         walk_tile(tiles, i, sample, exec.isa, work, [&](int x, int y, int at) {
             for (std::size_t l = 0; l < queries.size(); ++l) {
                 Need& need = needs[i * queries.size() + l];
-                const double texels = needed_texels(tiles, lights[l], queries[l].light->range_m, work.surface,
-                                                    at, x + sample.x / 256.0, y + sample.y / 256.0);
+                const double texels =
+                    needed_texels(tiles, lights[l], queries[l].light->light.range_m, work.surface, at,
+                                  x + sample.x / 256.0, y + sample.y / 256.0);
                 if (texels < need.texels) need = {texels, x, y};
             }
         });
@@ -101,7 +103,7 @@ std::vector<Need> needs_of_tiles(const TileScene& tiles, std::span<const Resolut
     return needs;
 }
 
-FoundResolution resolution_for(const Light& light, const Bounds& casters, const Need& need) {
+FoundResolution resolution_for(const SceneLight& light, const Bounds& casters, const Need& need) {
     FoundResolution found;
     if (!(need.texels < std::numeric_limits<double>::infinity())) return found;
     found.x = need.x;

@@ -19,15 +19,15 @@
 
 #include "app/frame/light_shadow_stats.h"
 #include "app/frame/tile.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "raster/view.h"
 
 namespace obscura {
 
 /// A light that asks, and the box of casters along its axes (parallel light only).
 struct ResolutionQuery {
-    const Light* light = nullptr;
+    const SceneLight* light = nullptr;
     Bounds casters;
 };
 

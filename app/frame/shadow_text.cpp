@@ -17,11 +17,11 @@ std::string resolution_text(const FoundResolution& found) {
                        found.capped ? "capped, a" : "a", found.magnification, found.x, found.y);
 }
 
-std::string capped_text(const Light& light, const FoundResolution& found) {
+std::string capped_text(const SceneLight& light, const FoundResolution& found) {
     return fmt::format(
         "light '{}': auto resolution ends at {} x {} texels, the most there are, and one still spans {:.3g} "
         "pixels at ({}, {}), above max_magnification {:.3g}",
-        light.id, found.resolution, found.resolution, found.magnification, found.x, found.y,
+        light.light.id, found.resolution, found.resolution, found.magnification, found.x, found.y,
         light.shadow.max_magnification);
 }
 

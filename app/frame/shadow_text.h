@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/frame/light_shadow_stats.h"
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 
@@ -15,7 +15,7 @@ std::string size_text(std::int64_t bytes);
 std::string resolution_text(const FoundResolution& found);
 
 /// The note on a light whose resolution is the largest there is and still too coarse for the picture.
-std::string capped_text(const Light& light, const FoundResolution& found);
+std::string capped_text(const SceneLight& light, const FoundResolution& found);
 
 /// What would make a tree of these settings smaller: the advice of the error when memory does not suffice.
 std::string smaller_tree_text(const ShadowSettings& shadow);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/frame/needed_texels.h"
+#include "app/frame/scene_light.h"
 #include "app/frame/shadow_cache.h"
 #include "app/frame/shadow_resolution.h"
 #include "app/frame/shadow_text.h"
@@ -27,33 +28,23 @@ struct Work {
     const std::atomic<bool>* cancel;
 };
 
-bool is_parallel(const Light& light) {
-    return light.kind == LightKind::directional || light.kind == LightKind::sun;
-}
-
-bool wants_auto(const Light& light) {
+bool wants_auto(const SceneLight& light) {
     return light.shadow.method == ShadowMethod::compressed && light.shadow.resolution == auto_resolution;
 }
 
 Bounds casters_of(const Scene& scene, const Light& light) {
-    return is_parallel(light) ? caster_box(scene.mesh, light.direction) : Bounds{};
+    return is_parallel(light.kind) ? caster_box(scene.mesh, light.direction) : Bounds{};
 }
 
-LightShadowStats fresh_stats(const Light& light, const std::optional<FoundResolution>& found) {
+LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundResolution>& found) {
     LightShadowStats stats;
-    stats.light = light.id;
+    stats.light = light.light.id;
     stats.method = light.shadow.method;
     stats.resolution = light.shadow.resolution;
-    stats.views = light.kind == LightKind::point ? 6 : 1;
+    stats.views = shadow_view_count(light.light.kind);
     stats.found = found;
     if (light.shadow.method == ShadowMethod::compressed) stats.scope = light.shadow.scope;
     return stats;
-}
-
-bool same_view(const LightView& a, const LightView& b) {
-    return a.to_map == b.to_map && a.width == b.width && a.height == b.height &&
-           a.perspective == b.perspective && a.near_w == b.near_w && a.min_depth == b.min_depth &&
-           a.max_depth == b.max_depth;
 }
 
 /// Reads the shadow from its file. False when there is none that serves. A file with the right key that holds
@@ -63,7 +54,7 @@ bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey
     std::string notice;
     shadow.trees = load_shadow_cache(file, key, notice);
     const auto serves = [](const ShadowTree& tree, const LightView& view) {
-        return same_view(tree.view, view);
+        return tree.view == view;
     };
     if (!shadow.trees.empty() &&
         !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {
@@ -81,12 +72,12 @@ bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey
 
 bool build_trees(const Work& work, const std::vector<NeededNodes>* needed, std::int64_t most_bytes,
                  LightShadow& shadow) {
-    const Light& light = shadow.light;
+    const SceneLight& light = shadow.light;
     if (light.shadow.cache.empty() || light.shadow.scope != ShadowScope::full) {
         return build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel);
     }
     const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
-    const auto file = folder / (light.id + ".shadowtree");
+    const auto file = folder / (light.light.id + ".shadowtree");
     if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
     const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
     const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
@@ -104,7 +95,8 @@ bool build_map(const Work& work, LightShadow& shadow) {
                           shadow.map, work.cancel)) {
         return false;
     }
-    shadow.stats.bytes = static_cast<std::uint64_t>(dense_map_bytes(shadow.light));
+    shadow.stats.bytes =
+        static_cast<std::uint64_t>(dense_map_bytes(shadow.light.light.kind, shadow.light.shadow.resolution));
     shadow.stats.build.build_s = watch.seconds();
     return true;
 }
@@ -115,7 +107,7 @@ void plan_shadows(const Work& work) {
     std::vector<LightShadow>& shadows = work.cache.shadows;
     std::size_t used = 0;
     for (std::size_t i = 0; i < work.scene.lights.size(); ++i) {
-        Light light = work.scene.lights[i];
+        SceneLight light = work.scene.lights[i];
         if (!casts_shadows(light)) continue;
         if (found[i]) light.shadow.resolution = found[i]->resolution;
         if (used == shadows.size()) shadows.emplace_back();
@@ -139,7 +131,7 @@ void plan_shadows(const Work& work) {
                 shadow.map.views.clear();  // not valid until it is built; its memory is used again
             } else {
                 shadow.map = {};
-                shadow.casters = casters_of(work.scene, light);
+                shadow.casters = casters_of(work.scene, light.light);
             }
         }
         shadow.light = light;
@@ -177,7 +169,7 @@ bool build_shadow(const Work& work, const std::vector<std::optional<std::vector<
         shadow.stats.scope = ShadowScope::full;
         work.stats.notices.push_back(
             fmt::format("light '{}': the picture reads so much of the shadow map that all of it is built",
-                        shadow.light.id));
+                        shadow.light.light.id));
         return build_trees(work, nullptr, most_bytes, shadow);
     }
     for (const NeededNodes& view : *of_light)
@@ -223,16 +215,17 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
 
 }  // namespace
 
-bool casts_shadows(const Light& light) {
-    return sheds_light(light) && light.shadow.method != ShadowMethod::none;
+bool casts_shadows(const SceneLight& light) {
+    return sheds_light(light.light) && light.shadow.method != ShadowMethod::none;
 }
 
 std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
                                                              std::span<const TileScene> pictures,
                                                              const Exec& exec) {
     std::vector<ResolutionQuery> queries;
-    for (const Light& light : scene.lights) {
-        if (casts_shadows(light) && wants_auto(light)) queries.push_back({&light, casters_of(scene, light)});
+    for (const SceneLight& light : scene.lights) {
+        if (casts_shadows(light) && wants_auto(light))
+            queries.push_back({&light, casters_of(scene, light.light)});
     }
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     if (queries.empty()) return found;

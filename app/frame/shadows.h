@@ -9,13 +9,13 @@
 #include "app/frame/frame.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/tile.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 
 namespace obscura {
 
 /// Whether the light has a shadow map of any kind.
-bool casts_shadows(const Light& light);
+bool casts_shadows(const SceneLight& light);
 
 /// Finds what resolution = "auto" means for every light of the scene that says so, for these pictures of the
 /// scene's camera (prepare_tiles()). One answer per light of the scene, without a value for the others.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/frame/frame.h"
-#include "core/scene.h"
+#include "app/scene/scene.h"
 #include "filters/pcf.h"
 #include "raster/depth_map.h"
 #include "raster/gbuffer.h"

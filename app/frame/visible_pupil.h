@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "app/scene/scene.h"
 #include "core/image.h"
 #include "core/mesh.h"
-#include "core/scene.h"
 
 namespace obscura {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "app/frame/render_frame.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "raster/surface.h"
 #include "stereo/middle_view.h"
 #include "stereo/moved_mesh.h"

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "app/frame/render_frame.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "stereo/edit.h"
 #include "stereo/middle_view.h"
 #include "stereo/stereo_rig.h"

@@ -12,9 +12,9 @@
 
 #include "app/pair/eyes.h"
 #include "app/pair/realised.h"
+#include "app/scene/scene.h"
 #include "app/scene/stereo_settings.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "stereo/edit.h"
 #include "stereo/middle_view.h"
 #include "stereo/moved_mesh.h"

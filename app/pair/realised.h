@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "app/pair/eyes.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "stereo/middle_view.h"
 #include "stereo/moved_mesh.h"
 

@@ -17,11 +17,11 @@ std::string duration(double ms) {
 
 std::string aperture_text(const OpticsSettings& o) {
     const char* dirt = has_dirt(o.dirt) ? ", not clean" : "";
-    if (o.aperture == "file")
-        return fmt::format("mask of {} x {} texels{}", o.mask.width, o.mask.height, dirt);
-    if (o.aperture == "iris" || o.aperture == "whirl")
-        return fmt::format("{} of {} blades{}", o.aperture, o.blades, dirt);
-    return o.aperture + dirt;
+    if (o.from_file) return fmt::format("mask of {} x {} texels{}", o.mask.width, o.mask.height, dirt);
+    const char* name = aperture_kind_name(o.shape.kind);
+    if (o.shape.kind == ApertureKind::iris || o.shape.kind == ApertureKind::whirl)
+        return fmt::format("{} of {} blades{}", name, o.shape.blades, dirt);
+    return fmt::format("{}{}", name, dirt);
 }
 
 double mib(std::int64_t bytes) {
@@ -43,7 +43,7 @@ std::string lens_text(const OpticsSettings& o, const RenderSettings& render) {
     out += fmt::format(
         "glare     above {:.4g} after exposure: {} x {} pixels, {:.4g} cycles of the pupil a pixel "
         "(550 nm), {} light\n",
-        o.clip, side, side, cycles, o.light);
+        o.clip, side, side, cycles, light_source_name(o.light.source));
     const PsfPlan plan = plan_far_field_psf(lens_aperture(o), params);
     out += fmt::format(
         "          its pattern: {} at {:.4g} million frequencies, {} wavelengths, about {} on one thread\n",

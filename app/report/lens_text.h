@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 

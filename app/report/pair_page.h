@@ -6,10 +6,10 @@
 
 #include "app/pair/pair.h"
 #include "app/report/pair_stats.h"
+#include "app/scene/scene.h"
 #include "app/scene/stereo_settings.h"
 #include "core/image.h"
 #include "core/isa.h"
-#include "core/scene.h"
 
 namespace obscura {
 

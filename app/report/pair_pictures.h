@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/pair/pair.h"
+#include "app/scene/scene.h"
 #include "core/image.h"
 #include "core/isa.h"
 #include "core/pixel.h"
-#include "core/scene.h"
 #include "stereo/comfort.h"
 #include "stereo/disparity.h"
 #include "stereo/disparity_colour.h"

@@ -7,9 +7,9 @@
 
 #include "app/frame/frame.h"
 #include "app/report/output_plan.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
 #include "core/pixel.h"
-#include "core/scene.h"
 
 namespace obscura {
 

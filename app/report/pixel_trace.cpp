@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/frame/shadows.h"
+#include "app/scene/light_kinds.h"
 #include "core/num.h"
 #include "filters/shadow_lookup.h"
 #include "filters/tonemap.h"
@@ -149,11 +150,10 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
 }
 
 void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) {
-    static constexpr const char* kinds[] = {"directional", "sun", "point", "spot"};
-    const Light& source = scene_.lights[light.scene_light];
+    const Light& source = scene_.lights[light.scene_light].light;
     const ref::LightTerms terms = ref::light_terms(work_->surface, light.shade, work_->shade, at);
     say("    light {} \"{}\" ({}): towards {}, n.l {:.6g}, irradiance {}", light.scene_light, source.id,
-        kinds[static_cast<int>(source.kind)], text_of(terms.incident.to_light), terms.nl,
+        light_kind_name(source.kind), text_of(terms.incident.to_light), terms.nl,
         text_of(terms.incident.irradiance));
     if (light.pcf) {
         tell_lookup(light, shadow, at);

@@ -2,9 +2,9 @@
 
 #include <sys/resource.h>
 
+#include "app/report/json_writer.h"
 #include "app/report/program_version.h"
 #include "app/scene/aov.h"
-#include "app/report/json_writer.h"
 #include "core/parallel.h"
 
 namespace obscura {
@@ -53,17 +53,13 @@ void put_glare(JsonWriter& json, const GlareStats& s) {
     json.member("captured", s.captured).end_object();
 }
 
-const char* method_name(ShadowMethod method) {
-    return method == ShadowMethod::map ? "map" : "compressed";
-}
-
 std::int64_t count(std::uint64_t n) {
     return static_cast<std::int64_t>(n);
 }
 
 void put_light(JsonWriter& json, const LightShadowStats& s) {
     json.begin_object();
-    json.member("light", s.light).member("method", method_name(s.method));
+    json.member("light", s.light).member("method", name_of(shadow_method_words, s.method));
     json.member("resolution", s.resolution).member("views", s.views).member("bytes", count(s.bytes));
     json.member("kept", s.kept).member("lookup_s", s.lookup_s);
     if (s.found) {

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/frame/frame.h"
-#include "app/report/picture_file.h"
 #include "app/frame/memory.h"
+#include "app/report/picture_file.h"
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 
 namespace obscura {
 

@@ -1,19 +1,19 @@
 #pragma once
 // The pictures that a frame can give, by name.
 
-#include <array>
 #include <string_view>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
+#include "app/scene/words.h"
 
 namespace obscura {
 
-/// In the order of Aov.
-inline constexpr std::array<std::string_view, 6> aov_names = {"beauty", "depth",  "normal",
-                                                              "albedo", "object", "shadow"};
+inline constexpr Word<Aov> aov_words[] = {{"beauty", Aov::beauty}, {"depth", Aov::depth},
+                                          {"normal", Aov::normal}, {"albedo", Aov::albedo},
+                                          {"object", Aov::object}, {"shadow", Aov::shadow}};
 
-constexpr std::string_view aov_name(Aov aov) {
-    return aov_names[static_cast<std::size_t>(aov)];
+inline std::string_view aov_name(Aov aov) {
+    return name_of(aov_words, aov);
 }
 
 }  // namespace obscura

@@ -14,7 +14,6 @@
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
 #include "app/scene/validate.h"
-#include "core/color.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "core/texture.h"
@@ -65,18 +64,8 @@ auto load_named(const Builder& b, const SceneTable& table, const char* key, Load
     return load(path);
 }
 
-Material material_of(Builder& b, const std::string& name, const SceneTable& table) {
-    Material m;
-    m.name = name;
-    Vec3d color = vec3(table, "base_color");
-    if (text(table, "color_space") == "srgb") {
-        color = {srgb_decode(color.x), srgb_decode(color.y), srgb_decode(color.z)};
-    }
-    m.base_color = to_float(color);
-    m.roughness = static_cast<float>(number(table, "roughness"));
-    m.metallic = static_cast<float>(number(table, "metallic"));
-    m.emission = to_float(vec3(table, "emission_w_m2_sr"));
-    m.translucency = static_cast<float>(number(table, "translucency"));
+Material textured_material(Builder& b, const std::string& name, const SceneTable& table) {
+    Material m = material_of(name, table);
     if (table.has("texture")) {
         m.texture = load_named(b, table, "texture", [&](const std::filesystem::path& path) {
             return texture_index(b, path, text(table, "texture"));
@@ -89,7 +78,7 @@ void add_materials(Builder& b) {
     if (!b.document.root.has("material")) return;
     for (const SceneEntry& entry : subtable(b.document.root, "material").entries) {
         b.materials.emplace(entry.key, static_cast<std::uint32_t>(b.scene.materials.size()));
-        b.scene.materials.push_back(material_of(b, entry.key, std::get<SceneTable>(entry.value.data)));
+        b.scene.materials.push_back(textured_material(b, entry.key, std::get<SceneTable>(entry.value.data)));
     }
 }
 
@@ -166,10 +155,6 @@ void name_objects(const SceneTable& table, Mesh& mesh) {
     }
 }
 
-Affine placement_of(const SceneTable& table) {
-    return placement(vec3(table, "scale"), vec3(table, "rotate_deg"), vec3(table, "translate_m"));
-}
-
 void check_coordinates(const Builder& b, const SceneTable& table, const Mesh& mesh) {
     for (const Vec3f p : mesh.positions) {
         if (std::fabs(p.x) <= farthest_m && std::fabs(p.y) <= farthest_m && std::fabs(p.z) <= farthest_m)
@@ -220,30 +205,13 @@ Image<float> lens_mask(const Builder& b) {
     });
 }
 
-Sky sky_of(const SceneTable& table) {
-    Sky sky;
-    sky.zenith = to_float(vec3(table, "zenith_w_m2_sr"));
-    sky.horizon = to_float(vec3(table, "horizon_w_m2_sr"));
-    sky.ground = to_float(vec3(table, "ground_w_m2_sr"));
-    sky.ambient = static_cast<float>(number(table, "ambient"));
-    sky.visible = boolean(table, "visible");
-    return sky;
-}
-
-Output output_of(const SceneTable& table) {
-    static const std::map<std::string, Aov> aovs = {{"beauty", Aov::beauty}, {"depth", Aov::depth},
-                                                    {"normal", Aov::normal}, {"albedo", Aov::albedo},
-                                                    {"object", Aov::object}, {"shadow", Aov::shadow}};
-    return {aovs.at(text(table, "aov")), text(table, "file")};
-}
-
 }  // namespace
 
 Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     Builder b{document, access, limits_of(document), {}, {}, {}, 0};
     b.scene.limits = b.limits;
     b.scene.render = render_settings_of(document);
-    b.scene.sky = sky_of(subtable(document.root, "sky"));
+    b.scene.sky = sky_of(document);
     for (const SceneTable* output : subtables(document.root, "output"))
         b.scene.outputs.push_back(output_of(*output));
 

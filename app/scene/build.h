@@ -2,8 +2,8 @@
 // From a validated document to what is rendered.
 
 #include "app/scene/file_access.h"
+#include "app/scene/scene.h"
 #include "app/scene/scene_file.h"
-#include "core/scene.h"
 
 namespace obscura {
 
@@ -15,11 +15,18 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access);
 /// Sets camera, lens and lights to `frame`; nothing else depends on it. Cheap.
 void set_frame(Scene& scene, const SceneDocument& document, double frame);
 
-/// The parts of a document that need no files.
+// The parts of a document that need no files, each beside the rows of its keys.
 Camera camera_of(const SceneTable& camera);
-Light light_of(const SceneTable& light);
+SceneLight light_of(const SceneTable& light);
+ShadowSettings shadow_settings_of(const SceneTable& shadow);
+/// Without its texture.
+Material material_of(const std::string& name, const SceneTable& material);
+Sky sky_of(const SceneDocument& document);
+Output output_of(const SceneTable& output);
 Limits limits_of(const SceneDocument& document);
 RenderSettings render_settings_of(const SceneDocument& document);
+/// What maps a mesh, or an instance of one, to its place.
+Affine placement_of(const SceneTable& mesh);
 /// The lens at a frame, without the mask of a file; not enabled where the scene has no [optics].
 OpticsSettings optics_of(const SceneDocument& document, double frame);
 

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* introduction = R"(# The scene format
 
 This page is written by `obscura dump --format` from the declarations that read scene files
-(`app/scene_keys.cpp`, `app/scene_keys_mesh.cpp`, `app/scene_shapes.cpp`); do not edit it by hand.
+(`app/scene/keys*.cpp`, `app/scene/light_kinds.cpp`, `app/scene/shapes.cpp`); do not edit it by hand.
 
 A scene is a TOML 1.0 file. The world is right-handed, +Y up, in metres; north is -Z and east is +X. Units stand in
 the names of keys (`_deg`, `_m`, `_mm`, `_px`). Colours are linear Rec. 709 triples, or one number for grey.

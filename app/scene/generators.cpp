@@ -1,49 +1,30 @@
 #include "app/scene/generators.h"
 
+#include "app/scene/key_row.h"
 #include "scenes/city.h"
 #include "scenes/generators.h"
 
 namespace obscura {
 namespace {
 
-/// One parameter of a generator whose parameters are a P: its key, and the member it sets. The default is
-/// the struct's own.
+/// One parameter of a generator whose parameters are a P: its key, and the member it sets.
 template <class P>
-struct Knob {
-    const char* name;
-    const char* doc;
-    Range range;
-    double standard = 0;
-    double P::*real = nullptr;
-    int P::*whole = nullptr;
-};
-
-template <class P>
-Knob<P> knob(const char* name, double P::*member, double lo, double hi, const char* doc) {
-    return {name, doc, {lo, hi}, P{}.*member, member, nullptr};
+KeyRow<P> knob(const char* name, double P::*member, double lo, double hi, const char* doc) {
+    return key_row(member, number_key(name, doc).in({lo, hi}));
 }
 template <class P>
-Knob<P> knob(const char* name, int P::*member, double lo, double hi, const char* doc) {
-    return {name, doc, {lo, hi}, static_cast<double>(P{}.*member), nullptr, member};
+KeyRow<P> knob(const char* name, int P::*member, double lo, double hi, const char* doc) {
+    return key_row(member, integer_key(name, doc).in({lo, hi}));
 }
 template <class P>
-Knob<P> seed_knob() {
+KeyRow<P> seed_knob() {
     return knob("seed", &P::seed, 0, 2147483647, "Another number, another one of its kind.");
 }
 
 template <class P>
-KeySpec key_of(const Knob<P>& k) {
-    if (k.real) return number_key(k.name, k.doc).in(k.range).or_else(k.standard);
-    return integer_key(k.name, k.doc).in(k.range).or_else(static_cast<std::int64_t>(k.standard));
-}
-
-template <class P>
-P params_of(const std::vector<Knob<P>>& knobs, const SceneTable& table) {
+P params_of(const KeyRows<P>& knobs, const SceneTable& table) {
     P p;
-    for (const Knob<P>& k : knobs) {
-        if (k.real) p.*k.real = number(table, k.name);
-        if (k.whole) p.*k.whole = static_cast<int>(integer(table, k.name));
-    }
+    read_rows(knobs, table, p);
     return p;
 }
 
@@ -54,13 +35,11 @@ std::string no_problem(const P&) {
 
 /// A shape out of a generator: `bound` is a number of triangles that it never exceeds.
 template <class P>
-ShapeSpec shape_of(const char* name, const char* doc, std::vector<Knob<P>> knobs,
-                   GeneratedModel (*make)(const P&), double (*bound)(const P&),
-                   std::string (*problem_of)(const P&) = no_problem<P>) {
+ShapeSpec shape_of(const char* name, const char* doc, KeyRows<P> knobs, GeneratedModel (*make)(const P&),
+                   double (*bound)(const P&), std::string (*problem_of)(const P&) = no_problem<P>) {
     ShapeSpec shape;
     shape.variant.name = name, shape.variant.doc = doc;
-    for (const Knob<P>& k : knobs)
-        shape.variant.keys.push_back(key_of(k));
+    shape.variant.keys = keys_of(knobs);
     shape.max_triangles = [knobs, bound](const SceneTable& t) {
         return static_cast<std::int64_t>(bound(params_of(knobs, t)));
     };

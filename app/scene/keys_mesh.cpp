@@ -1,24 +1,33 @@
 // [[mesh]]: the keys all meshes share, and one variant per registered shape.
 
+#include "app/scene/build.h"
+#include "app/scene/key_ranges.h"
+#include "app/scene/key_row.h"
 #include "app/scene/keys.h"
+#include "app/scene/mesh_transform.h"
 #include "app/scene/shapes.h"
 
 namespace obscura {
 namespace {
 
-constexpr Range anywhere{-1e9, 1e9};
+/// Scaled, turned, moved: in this order.
+struct Placement {
+    Vec3d scale{1, 1, 1}, rotate_deg, translate_m;
+};
 
-std::vector<KeySpec> transform_keys() {
-    return {
-        vec3_or_number_key("scale", "Scale along x, y, z, first; a negative one mirrors, 0 is an error.")
-            .in({-1e6, 1e6})
-            .or_else(Vec3d{1, 1, 1}),
-        vec3_key("rotate_deg",
-                 "Then turned about x, then y, then z, counter-clockwise seen from the axis' tip.")
-            .in({-36000, 36000})
-            .or_else(Vec3d{0, 0, 0}),
-        vec3_key("translate_m", "Then moved.").in(anywhere).or_else(Vec3d{0, 0, 0}),
+const KeyRows<Placement>& placement_rows() {
+    static const KeyRows<Placement> rows{
+        key_row(
+            &Placement::scale,
+            vec3_or_number_key("scale", "Scale along x, y, z, first; a negative one mirrors, 0 is an error.")
+                .in({-1e6, 1e6})),
+        key_row(&Placement::rotate_deg,
+                vec3_key("rotate_deg",
+                         "Then turned about x, then y, then z, counter-clockwise seen from the axis' tip.")
+                    .in(key_ranges::turns)),
+        key_row(&Placement::translate_m, vec3_key("translate_m", "Then moved.").in(key_ranges::anywhere)),
     };
+    return rows;
 }
 
 }  // namespace
@@ -27,7 +36,7 @@ const TableSpec& mesh_table() {
     static const TableSpec instance{
         "[[mesh.instance]]",
         "A copy of the mesh, placed by its own transform after the mesh's. Without any there is one copy.",
-        transform_keys(),
+        keys_of(placement_rows()),
         "",
         {}};
     static const TableSpec spec = [] {
@@ -53,7 +62,7 @@ const TableSpec& mesh_table() {
                      "A [material.NAME]; without it, files keep their own materials and shapes get the "
                      "default one."),
         };
-        for (KeySpec& key : transform_keys())
+        for (KeySpec& key : keys_of(placement_rows()))
             t.keys.push_back(std::move(key));
         t.keys.push_back(boolean_key("casts_shadow", "false: light passes through.").or_else(true));
         t.keys.push_back(boolean_key("flip_faces", "Turns every triangle inside out.").or_else(false));
@@ -65,6 +74,12 @@ const TableSpec& mesh_table() {
         return t;
     }();
     return spec;
+}
+
+Affine placement_of(const SceneTable& mesh) {
+    Placement p;
+    read_rows(placement_rows(), mesh, p);
+    return placement(p.scale, p.rotate_deg, p.translate_m);
 }
 
 }  // namespace obscura

@@ -1,7 +1,8 @@
 // Keys of shadows.
 
+#include "app/scene/build.h"
+#include "app/scene/key_row.h"
 #include "app/scene/keys.h"
-#include "core/scene.h"
 
 namespace obscura {
 
@@ -13,18 +14,16 @@ KeySpec shadow_cache_key() {
         .as_folder();
 }
 
-const TableSpec& shadow_table() {
-    static const ShadowSettings d;
-    static const TableSpec spec{
-        "[shadow.LIGHT]",
-        "How the light with the id LIGHT casts shadows. The same keys may stand in the light itself, as "
-        "`shadow = {...}` or [light.shadow]. `cache` may also stand in [shadow], for all lights.",
-        {
-            choice_key(
-                "method", {"none", "map", "compressed"},
-                "none: the light passes through everything. map: a dense map. compressed: a tree of depth "
-                "intervals, which gives the same shadows at resolutions far beyond.")
-                .or_else("compressed"),
+namespace {
+
+/// Without method = "compressed" the rules keep its keys out; with it they supply what is not given.
+const KeyRows<ShadowSettings>& shadow_rows() {
+    static const KeyRows<ShadowSettings> rows{
+        word_row(&ShadowSettings::method, shadow_method_words, "method",
+                 "none: the light passes through everything. map: a dense map. compressed: a tree of depth "
+                 "intervals, which gives the same shadows at resolutions far beyond."),
+        count_or_word_row(
+            &ShadowSettings::resolution, "auto", auto_resolution,
             integer_key(
                 "resolution",
                 "Texels per side of a map, at most 16384 with method \"map\", whose default is 4096; "
@@ -32,45 +31,66 @@ const TableSpec& shadow_table() {
                 "needs. The map of a parallel light covers the whole scene; `obscura check` tells the size "
                 "of a texel.")
                 .one_of({16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768, 65536, 131072,
-                         262144, 524288, 1048576})
-                .or_word("auto"),
-            integer_key("filter_px",
-                        "Side of the percentage-closer filter, in texels; with method \"map\" 1, 3 or 5.")
-                .one_of({1, 3, 5, 7, 9, 11, 13, 15})
-                .or_else(std::int64_t{d.filter_px}),
-            number_key("normal_offset_texels", "Bias of receivers on open surfaces; solids need none.")
-                .in({0, 100})
-                .or_else(d.normal_offset_texels),
-            choice_key("receivers", {"any", "static"}, "As in [render], whose value is the default."),
-            choice_key(
-                "scope", {"frame", "full"},
-                "Compressed: build what the frame's pixels look up, or everything, to be kept while only "
-                "the camera moves. \"full\" where there is a cache, else \"frame\"."),
-            choice_key(
-                "filter", {"pcf", "hierarchical"},
-                "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
-                "keeps distant shadows still when the camera moves; what is thinner than a square, as the "
-                "bars of a distant fence, then casts less of a shadow or none. A larger filter_px, whose "
-                "squares are smaller, keeps more of it. \"pcf\" when not given."),
+                         262144, 524288, 1048576})),
+        key_row(&ShadowSettings::filter_px,
+                integer_key("filter_px",
+                            "Side of the percentage-closer filter, in texels; with method \"map\" 1, 3 or 5.")
+                    .one_of({1, 3, 5, 7, 9, 11, 13, 15})),
+        key_row(&ShadowSettings::normal_offset_texels,
+                number_key("normal_offset_texels", "Bias of receivers on open surfaces; solids need none.")
+                    .in({0, 100})),
+        word_row_if_given(&ShadowSettings::receivers, receivers_words, "receivers",
+                          "As in [render], whose value is the default."),
+        word_row_if_given(
+            &ShadowSettings::scope, shadow_scope_words, "scope",
+            "Compressed: build what the frame's pixels look up, or everything, to be kept while only "
+            "the camera moves. \"full\" where there is a cache, else \"frame\"."),
+        word_row_if_given(
+            &ShadowSettings::filter, shadow_filter_words, "filter",
+            "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
+            "keeps distant shadows still when the camera moves; what is thinner than a square, as the "
+            "bars of a distant fence, then casts less of a shadow or none. A larger filter_px, whose "
+            "squares are smaller, keeps more of it. \"pcf\" when not given."),
+        key_row_if_given(
+            &ShadowSettings::max_magnification,
             number_key(
                 "max_magnification",
                 "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "
                 "across its shorter direction, anywhere in the picture. 1 when not given.")
-                .in({0.01, 100}),
-            choice_key(
-                "layout", {"words24", "words16", "bytes16"},
-                "Compressed: how nodes are written. bytes16 is about a tenth smaller and slower to look up, "
-                "words16 about as large as words24. \"words24\" when not given."),
+                .in({0.01, 100})),
+        word_row_if_given(
+            &ShadowSettings::layout, tree_layout_words, "layout",
+            "Compressed: how nodes are written. bytes16 is about a tenth smaller and slower to look up, "
+            "words16 about as large as words24. \"words24\" when not given."),
+        key_row_if_given(
+            &ShadowSettings::top_levels,
             integer_key(
                 "top_levels",
                 "Compressed: how many of the first levels are kept as a table, which saves lookups that "
                 "many steps; 6 when not given.")
-                .in({0, 10}),
-            shadow_cache_key(),
-        },
+                .in({0, 10})),
+        key_row_if_given(&ShadowSettings::cache, shadow_cache_key()),
+    };
+    return rows;
+}
+
+}  // namespace
+
+const TableSpec& shadow_table() {
+    static const TableSpec spec{
+        "[shadow.LIGHT]",
+        "How the light with the id LIGHT casts shadows. The same keys may stand in the light itself, as "
+        "`shadow = {...}` or [light.shadow]. `cache` may also stand in [shadow], for all lights.",
+        keys_of(shadow_rows()),
         "",
         {}};
     return spec;
+}
+
+ShadowSettings shadow_settings_of(const SceneTable& table) {
+    ShadowSettings settings;
+    read_rows(shadow_rows(), table, settings);
+    return settings;
 }
 
 }  // namespace obscura

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "app/scene/file_access.h"
+#include "app/scene/scene.h"
 #include "core/mesh.h"
-#include "core/scene.h"
 #include "core/topology.h"
 
 namespace obscura {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 

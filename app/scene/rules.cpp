@@ -9,6 +9,7 @@
 #include "app/scene/keyframe_rules.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
+#include "app/scene/light_kinds.h"
 #include "app/scene/rules_optics.h"
 #include "app/scene/rules_shadow.h"
 #include "app/scene/rules_stereo.h"
@@ -117,26 +118,6 @@ void check_triangles(const SceneDocument& document) {
     }
 }
 
-// --- lights
-
-void check_light(const SceneTable& light, const Sources& sources) {
-    const std::string& type = text(light, "type");
-    if (type != "point" && type != "spot") return;
-    if (number(light, "near_m") >= number(light, "range_m")) {
-        fail_at(place_of(light, light.find("near_m")->place.source >= 0 ? "near_m" : "range_m"), sources,
-                "'near_m' must be less than 'range_m'");
-    }
-    if (type != "spot") return;
-    if (vec3(light, "position_m") == vec3(light, "look_at_m")) {
-        fail_at(place_of(light, "look_at_m"), sources, "'look_at_m' is the same point as 'position_m'");
-    }
-    if (number(light, "inner_cone_deg") > number(light, "outer_cone_deg")) {
-        const bool inner = light.find("inner_cone_deg")->place.source >= 0;
-        fail_at(place_of(light, inner ? "inner_cone_deg" : "outer_cone_deg"), sources,
-                "'inner_cone_deg' must not be more than 'outer_cone_deg'");
-    }
-}
-
 // --- frames and outputs
 
 void check_outputs(const SceneTable& root, int frames, const Sources& sources) {
@@ -201,8 +182,9 @@ void check_frames(const SceneDocument& document, const std::vector<std::string>&
         std::erase_if(own, [&](const SceneTable* k) { return text(*k, "id") != text(*light, "id"); });
         check_keyframes(own, *light, fmt::format("light '{}'", text(*light, "id")),
                         variant_of(*light, light_table())->keys, sources);
+        const LightKindRow& kind = light_kind_of(*light);
         for (int i = 0; i < (own.empty() ? 1 : range->count()); ++i) {
-            check_light(light_at(document, *light, range->at(i)), sources);
+            if (kind.check != nullptr) kind.check(light_at(document, *light, range->at(i)), sources);
         }
     }
     check_optics_frames(document, *range);

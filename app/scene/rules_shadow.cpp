@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/scene/keys.h"
+#include "app/scene/scene.h"
 #include "app/scene/validate.h"
-#include "core/scene.h"
 
 namespace obscura {
 namespace {

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <string_view>
 
 #include "app/scene/aperture_file.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
+#include "app/scene/stereo_rows.h"
 #include "app/scene/validate.h"
 #include "raster/view.h"
 
@@ -31,71 +31,31 @@ SceneTable stereo_table_at(const SceneDocument& document, double frame) {
     return validate_table({}, {}, stereo_table(), document.sources);
 }
 
-StereoRig rig_of(const SceneTable& table, const Camera& camera) {
-    StereoRig rig;
-    rig.interaxial_m = number(table, "interaxial_m");
-    rig.zero_parallax_m =
-        table.has("zero_parallax_m") ? number(table, "zero_parallax_m") : length(camera.look_at - camera.eye);
-    rig.screen_width_m = number(table, "screen_width_m");
-    rig.viewing_distance_m = number(table, "viewing_distance_m");
-    rig.eye_separation_m = number(table, "eye_separation_m");
-    return rig;
+/// Where the screen stands when the scene does not say.
+double zero_parallax_m(const SceneTable& table, const Camera& camera) {
+    return table.has("zero_parallax_m") ? number(table, "zero_parallax_m")
+                                        : length(camera.look_at - camera.eye);
 }
 
-SolverParams solver_of(const SceneTable& table) {
-    static const std::map<std::string, SolverMethod> methods = {{"multigrid", SolverMethod::multigrid},
-                                                                {"fmg", SolverMethod::fmg},
-                                                                {"vcycle", SolverMethod::vcycle},
-                                                                {"cascade", SolverMethod::cascade}};
-    SolverParams p;
-    p.method = methods.at(text(table, "solver"));
-    p.tolerance_max_px = number(table, "tolerance_px");
-    p.tolerance_rms_px = 0.4 * p.tolerance_max_px;
-    p.max_iterations = static_cast<int>(integer(table, "max_iterations"));
-    p.sweeps = static_cast<int>(integer(table, "cascade_sweeps"));
-    p.half_storage = boolean(table, "half_storage");
-    return p;
-}
-
-EditParams edit_params_of(const SceneTable& table, const StereoRig& rig, int width) {
-    EditParams p;
-    p.gradient_weight = number(table, "gradient_weight");
-    p.anchor_weight = number(table, "anchor_weight");
-    p.match_weight = number(table, "match_weight");
-    p.epsilon = number(table, "regularization");
-    p.comfort_weight = number(table, "comfort_weight");
-    p.window_weight = number(table, "window_weight");
-    p.interfaces =
-        text(table, "interfaces") == "edited" ? InterfaceGradients::edited : InterfaceGradients::original;
-    p.window_inherited = boolean(table, "window_inherited");
-    p.limit_folds = boolean(table, "limit_folds");
-    p.reset_inversions = boolean(table, "reset_inversions");
-    if (table.has("comfort_near_percent")) {
-        p.comfort.nearest_px = 0.01 * number(table, "comfort_near_percent") * width;
-    } else if (table.has("comfort_near_deg")) {
-        p.comfort.nearest_px = disparity_of_vergence(number(table, "comfort_near_deg"), width, rig);
+/// The limit in pixels that either unit gives; `limit` stays when neither does.
+template <class Limit>
+void set_limit(const SceneTable& table, const std::string& name, const StereoRig& rig, int width,
+               Limit& limit) {
+    if (table.has(name + "_percent")) {
+        limit = 0.01 * number(table, name + "_percent") * width;
+    } else if (table.has(name + "_deg")) {
+        limit = disparity_of_vergence(number(table, name + "_deg"), width, rig);
     }
-    if (table.has("comfort_far_percent")) {
-        p.comfort.farthest_px = 0.01 * number(table, "comfort_far_percent") * width;
-    } else if (table.has("comfort_far_deg")) {
-        p.comfort.farthest_px = disparity_of_vergence(number(table, "comfort_far_deg"), width, rig);
-    }
-    return p;
 }
 
-RangeRemap remap_of(const SceneTable& table, int width) {
+void set_remap_pixels(const SceneTable& table, int width, RangeRemap& r) {
     const auto pixels = [&](const char* key) { return 0.01 * number(table, key) * width; };
-    RangeRemap r;
-    r.curvature = number(table, "remap_curvature");
-    r.kind = r.curvature == 0 && text(table, "remap") == "log" ? RemapKind::linear
-                                                               : *parse_remap(text(table, "remap"));
+    if (r.curvature == 0 && r.kind == RemapKind::logarithmic) r.kind = RemapKind::linear;
     r.nearest_px = pixels("remap_near_percent");
     r.farthest_px = pixels("remap_far_percent");
-    r.strength = number(table, "remap_strength");
     r.first_px = pixels("remap_first_percent");
     r.second_px = pixels("remap_second_percent");
     r.matched_px = pixels("remap_matched_percent");
-    return r;
 }
 
 // --- targets
@@ -245,15 +205,14 @@ StereoSettings stereo_settings(const SceneDocument& document, const Scene& scene
     const Size2 size = size2(subtable(document.root, "render"), "size_px");
     Reader r{document, scene, access, static_cast<double>(scene.render.width) / size.width, {}};
     StereoSettings& s = r.settings;
-    s.rig = rig_of(table, scene.camera);
-    const auto* margin = std::get_if<std::int64_t>(&table.find("margin_px")->value.data);
-    if (margin != nullptr) s.margin_px = static_cast<int>(static_cast<double>(*margin) * r.px + 0.5);
-    s.map_scale = static_cast<int>(integer(table, "map_scale"));
-    s.warm_start = boolean(table, "warm_start");
-    s.edit = edit_params_of(table, s.rig, scene.render.width);
-    s.solver = solver_of(table);
-    s.compare_remap = remap_of(table, scene.render.width);
-    s.reproject.tolerance_px = number(table, "tessellation_px");
+    read_rows(stereo_rows(), table, s);
+    s.rig.zero_parallax_m = zero_parallax_m(table, scene.camera);
+    if (s.margin_px != auto_margin)
+        s.margin_px = static_cast<int>(static_cast<double>(s.margin_px) * r.px + 0.5);
+    s.solver.tolerance_rms_px = 0.4 * s.solver.tolerance_max_px;
+    set_limit(table, "comfort_near", s.rig, scene.render.width, s.edit.comfort.nearest_px);
+    set_limit(table, "comfort_far", s.rig, scene.render.width, s.edit.comfort.farthest_px);
+    set_remap_pixels(table, scene.render.width, s.compare_remap);
     for (const SceneTable* edit : subtables(table, "edit"))
         add_edit(r, stereo_edit_at(document, *edit, frame));
     return std::move(r.settings);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "app/scene/file_access.h"
+#include "app/scene/scene.h"
 #include "app/scene/scene_file.h"
-#include "core/scene.h"
 #include "stereo/edit.h"
 #include "stereo/moved_mesh.h"
 #include "stereo/solver.h"

@@ -58,14 +58,23 @@ void SceneTable::erase(std::string_view key) {
 SceneValue value_of(bool v) {
     return {v, {}};
 }
+SceneValue value_of(int v) {
+    return value_of(std::int64_t{v});
+}
 SceneValue value_of(std::int64_t v) {
     return {v, {}};
 }
 SceneValue value_of(double v) {
     return {v, {}};
 }
+SceneValue value_of(float v) {
+    return value_of(std::strtod(fmt::format("{}", v).c_str(), nullptr));
+}
 SceneValue value_of(const char* v) {
     return {std::string(v), {}};
+}
+SceneValue value_of(const std::string& v) {
+    return {v, {}};
 }
 SceneValue value_of(Size2 v) {
     return {SceneList{value_of(std::int64_t{v.width}), value_of(std::int64_t{v.height})}, {}};
@@ -78,8 +87,7 @@ SceneValue value_of(Vec3d v) {
 }
 
 SceneValue value_of(Vec3f v) {
-    const auto decimal = [](float f) { return std::strtod(fmt::format("{}", f).c_str(), nullptr); };
-    return value_of(Vec3d{decimal(v.x), decimal(v.y), decimal(v.z)});
+    return {SceneList{value_of(v.x), value_of(v.y), value_of(v.z)}, {}};
 }
 
 bool boolean(const SceneTable& table, std::string_view key) {

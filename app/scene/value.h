@@ -1,6 +1,6 @@
 #pragma once
 // The tree a scene file is read into: plain values with the place they were written at. It knows nothing of
-// TOML's syntax (scene_file_parse.cpp does) nor of what keys mean (scene_keys.cpp does).
+// TOML's syntax (toml_parse.cpp does) nor of what keys mean (keys*.cpp do).
 
 #include <cstdint>
 #include <string>
@@ -60,13 +60,16 @@ struct SceneEntry {
 
 // Makers of values that stand nowhere: defaults.
 SceneValue value_of(bool v);
+SceneValue value_of(int v);
 SceneValue value_of(std::int64_t v);
 SceneValue value_of(double v);
+SceneValue value_of(float v);  ///< through the shortest decimal that gives the same float: 0.8f is 0.8
 SceneValue value_of(const char* v);
+SceneValue value_of(const std::string& v);
 SceneValue value_of(Size2 v);
 SceneValue value_of(Vec2d v);
 SceneValue value_of(Vec3d v);
-SceneValue value_of(Vec3f v);  ///< through the shortest decimal that gives the same float: 0.8f is 0.8
+SceneValue value_of(Vec3f v);  ///< as floats
 
 // Readers of validated tables. The key must be there with that type: the schema saw to it.
 bool boolean(const SceneTable& table, std::string_view key);

@@ -36,15 +36,15 @@ BenchScene stage_scene(std::string name, Mesh mesh, const BenchSize& size) {
     scene.render = {size.frame_width, size.frame_height, 1, 0.0, ToneCurve::linear, Receivers::any};
     scene.sky.visible = false;
 
-    Light sun;
-    sun.id = "sun";
-    sun.direction = normalize(Vec3d{-0.137, -0.848, -0.512});  // its map is about half full
-    sun.color = {1.8f, 1.8f, 1.8f};  // keeps Phong below 1: llvmpipe paints 8-bit pictures
+    SceneLight sun;
+    sun.light.id = "sun";
+    sun.light.direction = normalize(Vec3d{-0.137, -0.848, -0.512});  // its map is about half full
+    sun.light.color = {1.8f, 1.8f, 1.8f};  // keeps Phong below 1: llvmpipe paints 8-bit pictures
     sun.shadow.method = ShadowMethod::map;
     sun.shadow.resolution = size.map_px;
     sun.shadow.filter_px = 1;
     scene.lights = {sun};
-    bench.light = orthographic_light_view(bounds_of(scene.mesh), sun.direction, size.map_px);
+    bench.light = orthographic_light_view(bounds_of(scene.mesh), sun.light.direction, size.map_px);
     return bench;
 }
 

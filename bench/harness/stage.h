@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 #include "core/types.h"
 
 namespace obscura {

@@ -10,6 +10,7 @@
 #include <map>
 #include <string>
 
+#include "app/frame/scene_light.h"
 #include "bench/shadows/scenes.h"
 #include "bench/shadows/visible_points.h"
 #include "filters/shadow_lookup.h"
@@ -44,7 +45,7 @@ const ShadowTree& city_tree(int resolution, int top_levels) {
     if (found != made.end()) return found->second;
     const Scene& scene = city_view().scene;
     const LightView view =
-        orthographic_light_view(bounds_of(scene.mesh), scene.lights[0].direction, resolution);
+        orthographic_light_view(bounds_of(scene.mesh), scene.lights[0].light.direction, resolution);
     if (!built.contains(resolution)) built[resolution] = build_shadow_tree(scene.mesh, view, {}, Exec{});
     ShadowTree& tree = made[{resolution, top_levels}];
     return tree = encode_tree(built[resolution], view, {TreeLayout::words24, top_levels});
@@ -60,7 +61,7 @@ struct Lookups {
 /// Covered points that face the light, in squares of 4 x 4 pixels.
 Lookups lookups_in(const LightView& view) {
     const TreeScene& city = city_view();
-    const Vec3d to_light = -city.scene.lights[0].direction;
+    const Vec3d to_light = -city.scene.lights[0].light.direction;
     Lookups l;
     for (const SurfaceBlock& b : city.points.blocks) {
         for (int i = 0; i < block_samples; ++i) {
@@ -155,7 +156,7 @@ void PcfHierarchical(benchmark::State& state) {
 void PcfDense(benchmark::State& state) {
     const Scene& scene = city_view().scene;
     const auto resolution = static_cast<int>(state.range(0));
-    const Light of = shadow_light(scene, resolution, static_cast<int>(state.range(1)));
+    const SceneLight of = shadow_light(scene, resolution, static_cast<int>(state.range(1)));
     static std::map<int, ShadowMap> made;
     if (!made.contains(resolution)) {
         RasterScratch scratch;

@@ -20,7 +20,7 @@ double texel_m(const LightView& light) {
 }  // namespace
 
 PhongScene phong_constants(const BenchScene& bench) {
-    const Light& light = bench.scene.lights.at(0);
+    const Light& light = bench.scene.lights.at(0).light;
     const Material& material = bench.scene.materials.at(0);
     PhongScene phong;
     store(phong.eye, to_float(bench.scene.camera.eye));

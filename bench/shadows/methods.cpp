@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/frame/scene_light.h"
 #include "bench/shadows/dense_points.h"
 #include "core/stopwatch.h"
 #include "filters/shadow_lookup.h"
@@ -36,7 +37,7 @@ void look_up(const PcfLight& light, Isa isa, bool naive, const SurfaceBlock& sur
     }
 }
 
-std::vector<ShadowLookup> tree_lookups(const std::shared_ptr<const BuiltTree>& trees, const Light& light,
+std::vector<ShadowLookup> tree_lookups(const std::shared_ptr<const BuiltTree>& trees, const SceneLight& light,
                                        const Scene& scene, Isa isa) {
     const CameraRays rays = camera_rays(scene.camera, scene.render.width, scene.render.height);
     std::vector<ShadowLookup> lookups;
@@ -82,7 +83,7 @@ std::vector<PointLookup> tree_point_lookups(const std::shared_ptr<const BuiltTre
 }  // namespace
 
 BuiltShadow build_dense(const Scene& scene, int size, const Exec& exec) {
-    const Light light = shadow_light(scene, size, 1);
+    const SceneLight light = shadow_light(scene, size, 1);
     const Stopwatch watch;
     const auto map = std::make_shared<ShadowMap>();
     {
@@ -92,7 +93,7 @@ BuiltShadow build_dense(const Scene& scene, int size, const Exec& exec) {
     BuiltShadow built;
     built.build_s = watch.seconds();
     built.view = map->views[0];
-    built.bytes = dense_map_bytes(light);
+    built.bytes = dense_map_bytes(light.light.kind, size);
     built.light = pcf_light(light, *map, scene.camera.eye);
     built.lookups = [map, pcf = built.light](Isa isa) {
         std::vector<ShadowLookup> lookups;
@@ -115,7 +116,7 @@ BuiltShadow build_dense(const Scene& scene, int size, const Exec& exec) {
 }
 
 BuiltShadow build_compressed(const Scene& scene, int size, const Exec& exec) {
-    const Light light = shadow_light(scene, size, 1);
+    const SceneLight light = shadow_light(scene, size, 1);
     const Stopwatch watch;
     const LightView view = shadow_views(light, bounds_of(scene.mesh))[0];
     const auto trees = std::make_shared<BuiltTree>();

@@ -125,18 +125,18 @@ Scene stage_shadows(const ShadowRecipe& recipe, const PictureSize& size) {
     scene.camera.near_m = 1e-3 * half;
     scene.render = {size.width, size.height, 1, 0.0, ToneCurve::filmic, Receivers::any};
 
-    Light sun;
-    sun.id = "sun";
-    sun.direction = normalize(recipe.sun);
-    sun.color = {3, 3, 3};
+    SceneLight sun;
+    sun.light.id = "sun";
+    sun.light.direction = normalize(recipe.sun);
+    sun.light.color = {3, 3, 3};
     sun.shadow.method = ShadowMethod::none;
     sun.shadow.receivers = Receivers::any;  // as the trees that are built of it
     scene.lights = {sun};
     return scene;
 }
 
-Light shadow_light(const Scene& scene, int resolution, int side) {
-    Light light = scene.lights[0];
+SceneLight shadow_light(const Scene& scene, int resolution, int side) {
+    SceneLight light = scene.lights[0];
     light.shadow.method = ShadowMethod::map;
     light.shadow.resolution = resolution;
     light.shadow.filter_px = side;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 
@@ -36,6 +36,6 @@ std::vector<ShadowRecipe> shadow_recipes(const std::optional<std::filesystem::pa
 Scene stage_shadows(const ShadowRecipe& recipe, const PictureSize& size);
 
 /// lights[0] with a map of `resolution` texels a side, looked up with kernels of `side` texels.
-Light shadow_light(const Scene& scene, int resolution, int side);
+SceneLight shadow_light(const Scene& scene, int resolution, int side);
 
 }  // namespace obscura

@@ -38,7 +38,7 @@ struct Entrant {
 };
 
 std::size_t facing_pixels(const Scene& scene, const VisiblePoints& points) {
-    const Vec3f light = to_float(-normalize(scene.lights[0].direction));
+    const Vec3f light = to_float(-normalize(scene.lights[0].light.direction));
     std::size_t facing = 0;
     for (const SurfaceBlock& s : points.blocks) {
         for (int at = 0; at < block_samples; ++at) {
@@ -124,7 +124,7 @@ std::vector<Entrant> entrants_of(const Field& field, const ShadowBenchPlan& plan
     }
 #ifdef OBSCURA_HAS_EMBREE
     entrants.push_back({embree_name, 0, [&field, &shown](const Exec& exec) {
-                            const Vec3d to_light = -normalize(field.scene.lights[0].direction);
+                            const Vec3d to_light = -normalize(field.scene.lights[0].light.direction);
                             return open_shadow_rays(field.scene.mesh, field.points, to_light, shown, exec);
                         }});
 #else

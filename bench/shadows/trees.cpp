@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/frame/scene_light.h"
 #include "bench/harness/peak_memory.h"
 #include "bench/shadows/shadow_bench.h"
 #include "core/parallel.h"

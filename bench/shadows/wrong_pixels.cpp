@@ -80,7 +80,7 @@ TrueShadows true_shadows_of(const Scene& scene, const VisiblePoints& points, con
     result.mesh = &scene.mesh;
     result.points = &points;
     result.rays = &rays;
-    result.to_light = -normalize(scene.lights[0].direction);
+    result.to_light = -normalize(scene.lights[0].light.direction);
     result.truth = true_shadows(rays, scene.mesh, points, result.to_light, exec);
     return result;
 }

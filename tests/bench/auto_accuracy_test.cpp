@@ -55,7 +55,7 @@ struct Stage {
           truth(true_shadows_of(scene, points, rays, exec)) {}
 
     Found wrong_at(double max_magnification) {
-        Light& light = scene.lights[0];
+        SceneLight& light = scene.lights[0];
         light.shadow = ShadowSettings{};  // compressed, auto, scope frame
         light.shadow.filter_px = 1;
         light.shadow.max_magnification = max_magnification;

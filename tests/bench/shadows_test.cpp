@@ -13,6 +13,7 @@
 #include <map>
 #include <string>
 
+#include "app/frame/scene_light.h"
 #include "bench/harness/recipes.h"
 #include "bench/shadows/scenes.h"
 #include "bench/shadows/visible_points.h"
@@ -98,7 +99,7 @@ TEST(ShadowTruth, DenseMapsErrByTheirResolutionAlone) {
     const TrueShadows truth = true_shadows_of(scene, points, rays, Exec{});
     double last = 1;
     for (const int size : {64, 256, 1024}) {
-        const Light light = shadow_light(scene, size, 1);
+        const SceneLight light = shadow_light(scene, size, 1);
         ShadowMap map;
         RasterScratch scratch;
         ASSERT_TRUE(build_shadow_map(scene.mesh, light, bounds_of(scene.mesh), Exec{}, scratch, map));

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "filters/shadow_lookup.h"
+#include "app/frame/scene_light.h"
 #include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
 #include "raster/depth_tile.h"
@@ -172,7 +172,7 @@ class Picture {
 };
 
 ShadowTree tree_of(const Scene& scene, int resolution) {
-    Light light = scene.lights[0];
+    SceneLight light = scene.lights[0];
     light.shadow.resolution = resolution;
     const LightView view = shadow_views(light, bounds_of(scene.mesh))[0];
     return encode_tree(build_shadow_tree(scene.mesh, view, {}, Exec{}), view);
@@ -190,7 +190,7 @@ Scene slab_from(double distance_m) {
     scene.camera.vfov_deg = 20;
     scene.camera.eye = {0.3 * distance_m, 0.6 * distance_m, 0.7 * distance_m};
     scene.camera.look_at = {0, 0, 0};
-    Light sun = frame_scenes::directional({0.7, -0.25, 0.4}, {1, 1, 1}, 3, 1024);
+    SceneLight sun = frame_scenes::directional({0.7, -0.25, 0.4}, {1, 1, 1}, 3, 1024);
     sun.shadow.method = ShadowMethod::none;
     scene.lights.push_back(sun);
     return scene;
@@ -265,7 +265,7 @@ Scene distant_fences() {
     scene.camera.eye = {12, 60, 150};
     scene.camera.look_at = {0, 0, 0};
     scene.camera.vfov_deg = 9;
-    Light sun = frame_scenes::directional({0.35, -0.8, -0.5}, {1, 1, 1}, 3, 8192);
+    SceneLight sun = frame_scenes::directional({0.35, -0.8, -0.5}, {1, 1, 1}, 3, 8192);
     sun.shadow.method = ShadowMethod::none;
     scene.lights.push_back(sun);
     return scene;

@@ -6,7 +6,7 @@
 
 #include <bit>
 
-#include "filters/shadow_lookup.h"
+#include "app/frame/scene_light.h"
 #include "hierarchy/decode.h"
 #include "raster/view.h"
 #include "tests/filters/tree_pcf_samples.h"
@@ -160,10 +160,10 @@ TEST(TreePcfScenes, LightsOfEveryKindSeeWhatTheirDenseMapsShow) {
         frame_scenes::add(scene, plane(1.5, 1.5), 0, {1.8f, 1.0f, 1.3f});
         scene.camera.eye = {1.5, 3, 5};
         scene.camera.look_at = {0, 0.3, 0};
-        Light light = kind == LightKind::directional
-                          ? frame_scenes::directional({0.6, -1, -0.3}, {1, 1, 1}, 3, 256)
-                          : frame_scenes::at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
-        light.outer_cone_deg = 70;
+        SceneLight light = kind == LightKind::directional
+                               ? frame_scenes::directional({0.6, -1, -0.3}, {1, 1, 1}, 3, 256)
+                               : frame_scenes::at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
+        light.light.outer_cone_deg = 70;
         light.shadow.method = ShadowMethod::none;
         scene.lights.push_back(light);
         const std::vector<SurfaceBlock> blocks = surfaces_of(scene);

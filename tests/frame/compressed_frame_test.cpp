@@ -56,25 +56,26 @@ class AutoResolution : public testing::TestWithParam<Case> {};
 
 TEST_P(AutoResolution, IsTheLeastAtWhichNoPixelIsMagnifiedMore) {
     Scene scene = staged(GetParam().kind, GetParam().orthographic);
-    Light& light = scene.lights[0];
+    SceneLight& light = scene.lights[0];
     light.shadow.max_magnification = GetParam().most;
     const Stage stage(scene);
     const auto found = auto_resolutions(scene, stage.tiles, {});
     ASSERT_TRUE(found[0]);
     ASSERT_FALSE(found[0]->capped);
     ASSERT_GT(found[0]->resolution, least_map_resolution);
-    const Bounds casters = caster_box(scene.mesh, light.direction);
+    const Bounds casters = caster_box(scene.mesh, light.light.direction);
     const auto views = fitted_shadow_views(light, casters, found[0]->resolution),
                coarser = fitted_shadow_views(light, casters, found[0]->resolution / 2);
     double worst = 0, worst_coarser = 0;
     stage.walk([&](int x, int y, int at, const SurfaceBlock& s) {
         const Vec3d p = scene.camera.eye + to_double(Vec3f{s.px[at], s.py[at], s.pz[at]});
         const Vec3d n = to_double(Vec3f{s.gx[at], s.gy[at], s.gz[at]});
-        const Vec3d l = light.kind == LightKind::directional ? -light.direction : light.position - p;
+        const Vec3d l =
+            light.light.kind == LightKind::directional ? -light.light.direction : light.light.position - p;
         const double cosine = dot(n, l) / length(l);
         const bool thin = (s.thin[at / 16] >> (at & 15) & 1u) != 0;
         if ((cosine <= 0 && !thin) ||
-            length(l) > (light.kind == LightKind::directional ? 1e300 : light.range_m))
+            length(l) > (light.light.kind == LightKind::directional ? 1e300 : light.light.range_m))
             return;
         const std::size_t face =
             views.size() == 6 ? static_cast<std::size_t>(cube_face(to_float(-l))) : std::size_t{0};
@@ -120,7 +121,7 @@ struct ScopeCount {
 };
 
 /// Compares every tap of every pixel's lookup in two sets of trees of the same light.
-ScopeCount compare_trees(const Stage& stage, const Light& light, const std::vector<ShadowTree>& a,
+ScopeCount compare_trees(const Stage& stage, const SceneLight& light, const std::vector<ShadowTree>& a,
                          const std::vector<ShadowTree>& b) {
     const Vec3d eye = stage.scene.camera.eye;
     const PcfLight one = pcf_light(light, std::span(a), eye), other = pcf_light(light, std::span(b), eye);
@@ -147,10 +148,11 @@ ScopeCount compare_trees(const Stage& stage, const Light& light, const std::vect
     return count;
 }
 
-std::vector<ShadowTree> trees_of(const Stage& stage, Light light, const std::vector<NeededNodes>* needed) {
+std::vector<ShadowTree> trees_of(const Stage& stage, SceneLight light,
+                                 const std::vector<NeededNodes>* needed) {
     LightShadow shadow;
     shadow.light = light;
-    shadow.casters = caster_box(stage.scene.mesh, light.direction);
+    shadow.casters = caster_box(stage.scene.mesh, light.light.direction);
     EXPECT_TRUE(build_light_trees(stage.scene.mesh, needed, {}, std::int64_t{1} << 32, shadow, nullptr));
     return shadow.trees;
 }
@@ -163,9 +165,9 @@ TEST(Scope, OfAFrameChangesOnlyReceiversStrictlyInsideTheirInterval) {
             scene.lights[0].shadow.filter_px = side;
             scene.lights[0].shadow.resolution = 512;
             const Stage stage(scene);
-            const Light& light = scene.lights[0];
-            const auto views =
-                fitted_shadow_views(light, caster_box(scene.mesh, light.direction), light.shadow.resolution);
+            const SceneLight& light = scene.lights[0];
+            const auto views = fitted_shadow_views(light, caster_box(scene.mesh, light.light.direction),
+                                                   light.shadow.resolution);
             const std::vector<PcfLight> asking{pcf_light(light, views, scene.camera.eye)};
             const auto needed = needed_texels(stage.tiles, asking, {});
             ASSERT_TRUE(needed[0]);
@@ -196,7 +198,7 @@ TEST(Scope, OfAFrameGivesUpWhenItAsksForTooMuch) {
     scene.lights[0].shadow.resolution = 4096;
     const Stage stage(scene);
     const auto views =
-        fitted_shadow_views(scene.lights[0], caster_box(scene.mesh, scene.lights[0].direction), 4096);
+        fitted_shadow_views(scene.lights[0], caster_box(scene.mesh, scene.lights[0].light.direction), 4096);
     const std::vector<PcfLight> asking{pcf_light(scene.lights[0], views, scene.camera.eye)};
     EXPECT_TRUE(needed_texels(stage.tiles, asking, {})[0]);
     EXPECT_FALSE(needed_texels(stage.tiles, asking, {}, 100)[0]);
@@ -208,7 +210,7 @@ TEST(Scope, OfAFrameGivesUpWhenItAsksForTooMuch) {
 /// Lights of every kind, every kind of compressed shadow.
 Scene all_compressed(int samples = 1) {
     Scene scene = everything(samples);
-    for (Light& light : scene.lights) {
+    for (SceneLight& light : scene.lights) {
         light.shadow.method = ShadowMethod::compressed;
         light.shadow.resolution = auto_resolution;
         light.shadow.max_magnification = 2;
@@ -216,7 +218,7 @@ Scene all_compressed(int samples = 1) {
     scene.lights[0].shadow.filter = ShadowFilter::hierarchical;
     scene.lights[1].shadow.resolution = 512;
     scene.lights[2].shadow.scope = ShadowScope::full;
-    scene.lights[2].shadow.layout = ShadowLayout::bytes16;
+    scene.lights[2].shadow.layout = TreeLayout::bytes16;
     return scene;
 }
 
@@ -250,7 +252,7 @@ TEST(CompressedFrame, KeepsWhatStillServes) {
     };
     EXPECT_EQ(kept(), "bbb");
     EXPECT_EQ(kept(), "kkk");
-    scene.lights[0].color = {1, 2, 3};
+    scene.lights[0].light.color = {1, 2, 3};
     EXPECT_EQ(kept(), "kkk");
     scene.camera.eye.x += 0.01;  // not enough for another resolution
     EXPECT_EQ(kept(), "bbk");

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "app/frame/memory.h"
 #include "app/frame/shadows.h"
 #include "app/scene/build.h"
 #include "tests/frame/scenes.h"
@@ -132,13 +133,13 @@ TEST(FrameDeterminism, KeptMapsGiveTheSamePictureAsNewOnes) {
 
     // Another camera and another colour: every map stays.
     scene.camera.eye = {-3, 1.5, 5};
-    scene.lights[0].color = {1, 2, 3};
+    scene.lights[0].light.color = {1, 2, 3};
     render_frame(scene, {}, {}, cache, frame);
     EXPECT_EQ(frame.stats.shadow_maps, 0);
     EXPECT_EQ(hash(frame), hash(render_frame(scene)));
 
     // A light that moves gets a new map, the others keep theirs.
-    scene.lights[2].position.x += 0.5;
+    scene.lights[2].light.position.x += 0.5;
     render_frame(scene, {}, {}, cache, frame);
     EXPECT_EQ(frame.stats.shadow_maps, 1);
     EXPECT_EQ(hash(frame), hash(render_frame(scene)));
@@ -147,8 +148,8 @@ TEST(FrameDeterminism, KeptMapsGiveTheSamePictureAsNewOnes) {
 TEST(FrameDeterminism, DoubledLightDoublesThePictureExactly) {
     Scene scene = everything(1);
     const Frame once = render_frame(scene);
-    for (Light& light : scene.lights)
-        light.color = light.color * 2.0f;
+    for (SceneLight& light : scene.lights)
+        light.light.color = light.light.color * 2.0f;
     for (Material& material : scene.materials)
         material.emission = material.emission * 2.0f;
     for (Vec3f* sky : {&scene.sky.zenith, &scene.sky.horizon, &scene.sky.ground})

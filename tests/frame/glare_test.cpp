@@ -13,6 +13,7 @@
 #include "app/frame/lens.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/source_kernels.h"
+#include "app/report/lens_text.h"
 #include "app/report/render_stats.h"
 #include "app/scene/build.h"
 #include "core/error.h"
@@ -179,7 +180,7 @@ TEST(FrameGlare, PatternsAreKeptWhileTheLensStays) {
     render_frame(scene, {}, {}, cache, frame);
     EXPECT_TRUE(frame.stats.glare->kept);
     EXPECT_TRUE(same(frame, first)) << "no frame depends on those before it";
-    scene.optics.rotation_deg = 30;
+    scene.optics.shape.rotation_deg = 30;
     render_frame(scene, {}, {}, cache, frame);
     EXPECT_FALSE(frame.stats.glare->kept);
     EXPECT_FALSE(same(frame, first));

@@ -50,8 +50,8 @@ std::vector<Case> cases() {
 /// so that some receivers are off it, others on its border.
 struct Asking {
     explicit Asking(const Case& c) : scene(scene_of(c)), stage(scene) {
-        const Light& l = scene.lights[0];
-        const auto views = fitted_shadow_views(l, caster_box(scene.mesh, l.direction), c.resolution);
+        const SceneLight& l = scene.lights[0];
+        const auto views = fitted_shadow_views(l, caster_box(scene.mesh, l.light.direction), c.resolution);
         light = pcf_light(l, views, scene.camera.eye);
         if (light.directional) {
             for (double& m : light.view[0].to_map[0])

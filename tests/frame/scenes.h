@@ -2,6 +2,7 @@
 // Small scenes for the tests of frames.
 
 #include "app/frame/render_frame.h"
+#include "app/frame/scene_light.h"
 #include "core/hash.h"
 #include "core/num.h"
 #include "core/topology.h"
@@ -33,24 +34,24 @@ inline Scene empty_scene(int width, int height, int samples = 1) {
     return scene;
 }
 
-inline Light directional(Vec3d direction, Vec3f irradiance, int filter_px = 3, int resolution = 512) {
-    Light light;
-    light.kind = LightKind::directional;
-    light.direction = normalize(direction);
-    light.color = irradiance;
+inline SceneLight directional(Vec3d direction, Vec3f irradiance, int filter_px = 3, int resolution = 512) {
+    SceneLight light;
+    light.light.kind = LightKind::directional;
+    light.light.direction = normalize(direction);
+    light.light.color = irradiance;
     light.shadow.method = ShadowMethod::map;
     light.shadow.filter_px = filter_px;
     light.shadow.resolution = resolution;
     return light;
 }
 
-inline Light at_point(LightKind kind, Vec3d position, Vec3d direction, Vec3f intensity) {
-    Light light;
-    light.kind = kind;
-    light.position = position;
-    light.direction = normalize(direction);
-    light.color = intensity;
-    light.range_m = 30;
+inline SceneLight at_point(LightKind kind, Vec3d position, Vec3d direction, Vec3f intensity) {
+    SceneLight light;
+    light.light.kind = kind;
+    light.light.position = position;
+    light.light.direction = normalize(direction);
+    light.light.color = intensity;
+    light.light.range_m = 30;
     light.shadow.method = ShadowMethod::map;
     light.shadow.resolution = 256;
     return light;

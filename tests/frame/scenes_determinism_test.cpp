@@ -41,7 +41,7 @@ TEST(Determinism, ThreadsAndInstructionSetsGiveOnePicture) {
         ++scenes;
         const SceneDocument document = read_scene(entry.path());
         Scene scene = build_scene(document, FileAccess{document.folder, {}});
-        for (Light& light : scene.lights)
+        for (SceneLight& light : scene.lights)
             light.shadow.resolution = std::min(light.shadow.resolution, 256);
         const std::uint64_t expected = render_hash(scene, {Isa::ref, 1});
         for (const Isa isa : supported_isas()) {

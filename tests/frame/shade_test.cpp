@@ -210,12 +210,12 @@ TEST(Shade, PlaneUnderADirectionalLightHasTheKnownRadiance) {
 TEST(Shade, PointLightFallsWithTheSquareOfDistanceAndEndsAtItsRange) {
     Scene scene = floor_from_above(64, 12);
     scene.lights.push_back(at_point(LightKind::point, {0.5, 1.5, 0.25}, {0, -1, 0}, {7, 7, 7}));
-    scene.lights[0].range_m = 5;
+    scene.lights[0].light.range_m = 5;
     const Frame frame = render_frame(scene);
     int beyond = 0;
     for (int y = 0; y < 64; y += 3) {
         for (int x = 0; x < 64; x += 3) {
-            const Vec3d d = scene.lights[0].position - floor_point(scene, x, y);
+            const Vec3d d = scene.lights[0].light.position - floor_point(scene, x, y);
             const double r = length(d), window = std::max(1 - std::pow(r / 5, 4), 0.0);
             const double expected =
                 7 * window * window / (r * r) * (d.y / r) *
@@ -230,7 +230,7 @@ TEST(Shade, PointLightFallsWithTheSquareOfDistanceAndEndsAtItsRange) {
 
 TEST(Shade, ASurfaceAtTheLightItselfStaysFiniteAndTheSameBits) {
     Scene scene = floor_from_above(16, 4);
-    Light at_floor = at_point(LightKind::point, floor_point(scene, 8, 8), {0, -1, 0}, {7, 7, 7});
+    SceneLight at_floor = at_point(LightKind::point, floor_point(scene, 8, 8), {0, -1, 0}, {7, 7, 7});
     at_floor.shadow.method = ShadowMethod::none;
     scene.lights.push_back(at_floor);
     const Frame expected = render_frame(scene, {}, {Isa::ref, 1});
@@ -243,9 +243,9 @@ TEST(Shade, ASurfaceAtTheLightItselfStaysFiniteAndTheSameBits) {
 TEST(Shade, SpotIsFullInsideItsConeAndDarkOutside) {
     Scene scene = floor_from_above(128, 8);
     scene.lights.push_back(at_point(LightKind::spot, {0, 3, 0}, {0, -1, 0}, {5, 5, 5}));
-    scene.lights[0].range_m = 1000;
-    scene.lights[0].inner_cone_deg = 20;
-    scene.lights[0].outer_cone_deg = 40;
+    scene.lights[0].light.range_m = 1000;
+    scene.lights[0].light.inner_cone_deg = 20;
+    scene.lights[0].light.outer_cone_deg = 40;
     const Frame frame = render_frame(scene);
     int inside = 0, edge = 0, outside = 0;
     for (int x = 0; x < 128; ++x) {

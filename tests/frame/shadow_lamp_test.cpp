@@ -27,9 +27,9 @@ Scene floor_below(LightKind kind, bool closed_floor, int filter_px, int resoluti
     scene.camera.eye = {0, 10, 0};
     scene.camera.look_at = {0, 0, 0};
     scene.camera.up = {0, 0, -1};
-    Light lamp = at_point(kind, {0.07, 1.03, -0.04}, {0.1, -1, 0.05}, {10, 10, 10});
-    lamp.outer_cone_deg = 70;
-    lamp.inner_cone_deg = 65;
+    SceneLight lamp = at_point(kind, {0.07, 1.03, -0.04}, {0.1, -1, 0.05}, {10, 10, 10});
+    lamp.light.outer_cone_deg = 70;
+    lamp.light.inner_cone_deg = 65;
     lamp.shadow.filter_px = filter_px;
     lamp.shadow.resolution = resolution;
     scene.lights.push_back(lamp);

@@ -55,7 +55,7 @@ TEST_P(ThinSlab, HasNoAcneUnderALowSunAndTheBoxOnItLeaksNoLight) {
     for (const double elevation : {10.0, 30.0}) {
         for (const double azimuth : {20.0, 115.0}) {
             const Scene scene = thin_slab(side, elevation, azimuth);
-            const Vec3d l = scene.lights[0].direction;
+            const Vec3d l = scene.lights[0].light.direction;
             const double texel = texel_size_m(shadow_views(scene.lights[0], bounds_of(scene.mesh))[0]);
             // The kernel and one texel, across the light and along it.
             const double across_m = (side / 2 + 1.0) * texel, along_m = across_m / -l.y;

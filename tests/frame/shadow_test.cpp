@@ -128,7 +128,7 @@ struct RayCount {
 RayCount compare_with_rays(const Scene& scene, double margin_m) {
     const Frame frame = render_frame(scene, all_channels());
     const CameraRays rays = camera_rays(scene.camera, scene.render.width, scene.render.height);
-    const Light& light = scene.lights[0];
+    const Light& light = scene.lights[0].light;
     const bool closed = scene.mesh.components[0].closed;
     RayCount count;
     for (int y = 0; y < frame.height; ++y) {
@@ -203,9 +203,9 @@ TEST(ShadowRays, ClosedSolidsHaveNeitherAcneNorLeaksAtAnyAngle) {
 TEST(ShadowRays, PointLightsAndSpotsAgreeWithRays) {
     for (const LightKind kind : {LightKind::point, LightKind::spot}) {
         Scene scene = solids_for_rays();
-        Light light = at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
-        light.outer_cone_deg = 70;
-        light.range_m = 12;
+        SceneLight light = at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
+        light.light.outer_cone_deg = 70;
+        light.light.range_m = 12;
         light.shadow.resolution = 1024;
         scene.lights.push_back(light);
         const RayCount count = compare_with_rays(scene, 0.06);
@@ -240,7 +240,7 @@ TEST(ShadowRays, OpenSheetsStayLitThanksToTheirOffset) {
 
 TEST(Shadow, StoredDepthsAreTheMiddlesOfTheIntervals) {
     const Scene scene = solids_for_rays();
-    const Light light = directional({1, -1, 0.2}, {1, 1, 1}, 1, 128);
+    const SceneLight light = directional({1, -1, 0.2}, {1, 1, 1}, 1, 128);
     RasterScratch scratch;
     ShadowMap map;
     build_shadow_map(scene.mesh, light, bounds_of(scene.mesh), {}, scratch, map);
@@ -272,7 +272,7 @@ TEST(Shadow, ObjectsThatCastNoneAndLightsWithoutMapsCastNone) {
     scene.lights[0].shadow.method = ShadowMethod::none;
     EXPECT_EQ(dark(), 0);
     scene.lights[0].shadow.method = ShadowMethod::map;
-    scene.lights[0].below_horizon = true;
+    scene.lights[0].light.below_horizon = true;
     EXPECT_EQ(dark(), 256);
 }
 

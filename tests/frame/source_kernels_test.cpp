@@ -146,7 +146,7 @@ struct HalfLens {
     Aperture aperture;
     HalfLens() {
         optics.enabled = true;
-        optics.aperture = "file";
+        optics.from_file = true;
         optics.focal_length_mm = 50;
         optics.f_number = 2;
         optics.sensor_height_mm = 24;

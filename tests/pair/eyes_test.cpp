@@ -147,10 +147,10 @@ struct Wall {
         scene.camera.eye = {0, 0, 0};
         scene.camera.look_at = {0, 0, -1};
         scene.camera.vfov_deg = 40;
-        scene.lights[0].direction = normalize(Vec3d{-0.3, -0.4, -1});
-        scene.lights[1].position = {-1, 0.5, -4};
-        scene.lights[2].position = {2, 2, -1};
-        scene.lights[2].direction = normalize(Vec3d{-2, -2, -5});
+        scene.lights[0].light.direction = normalize(Vec3d{-0.3, -0.4, -1});
+        scene.lights[1].light.position = {-1, 0.5, -4};
+        scene.lights[2].light.position = {2, 2, -1};
+        scene.lights[2].light.direction = normalize(Vec3d{-2, -2, -5});
         rig.interaxial_m = 0.5;
         // d(6) = scale (1 / 6 - 1 / zp) = 8.
         const double scale = disparity_law(rig, scene.camera, scene.render.height).scale;
@@ -259,7 +259,7 @@ TEST(EyesLight, GlareIsAddedToEach) {
     EyesCache cache;
     Frame plain = eye_picture(scene, rig, Eye::right, cache);
     scene.optics.enabled = true;
-    scene.optics.aperture = "slit";
+    scene.optics.shape.kind = ApertureKind::slit;
     scene.optics.mask_px = 64;
     scene.optics.f_number = 200;
     scene.optics.wavelengths = 5;
@@ -283,7 +283,7 @@ TEST(EyesLight, LampsAreHiddenFromTheLensOfEach) {
     add(scene, box({0.03, 4, 0.03}), 0, {0.02f, 0, -3});
     scene.camera = {CameraKind::perspective, {0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 3.4, 10, 0.05};
     scene.optics.enabled = true;
-    scene.optics.aperture = "circle";
+    scene.optics.shape.kind = ApertureKind::circle;
     scene.optics.focal_length_mm = 400;
     scene.optics.mask_px = 32;
     scene.optics.wavelengths = 1;

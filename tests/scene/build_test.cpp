@@ -135,7 +135,7 @@ TEST_F(SceneBuild, SrgbColoursBecomeLinear) {
 
 TEST_F(SceneBuild, AzimuthIsClockwiseFromNorth) {
     const auto direction = [&](const std::string& keys) {
-        return build("[[light]]\nid = \"a\"\ntype = \"directional\"\n" + keys).lights.at(0).direction;
+        return build("[[light]]\nid = \"a\"\ntype = \"directional\"\n" + keys).lights.at(0).light.direction;
     };
     // North is -Z and east is +X; light travels away from where it comes from.
     EXPECT_EQ(direction("azimuth_deg = 0\nelevation_deg = 0"), (Vec3d{0, 0, 1}));
@@ -150,7 +150,8 @@ TEST_F(SceneBuild, SunStandsInTheSouthAtNoonAndReddensTowardsEvening) {
                    "[[light]]\nid = \"a\"\ntype = \"sun\"\nlatitude_deg = 48.2\nlongitude_deg = 16.37\ntime "
                    "= " +
                    time)
-            .lights.at(0);
+            .lights.at(0)
+            .light;
     };
     // Vienna, summer solstice: the sun culminates at 90 - 48.2 + 23.44 degrees at about 12:56 summer time.
     const Light noon = sun("2026-06-21T12:56:30+02:00"), evening = sun("2026-06-21T20:00:00+02:00");
@@ -203,15 +204,15 @@ time = 2026-03-20T16:00:00Z
     const SceneDocument document = read_scene_text(text, "s.toml");
     Scene scene = build_scene(document, FileAccess{folder_, {}});
     EXPECT_EQ(scene.camera.eye, (Vec3d{0, 0, 10}));
-    const Vec3d morning = scene.lights.at(0).direction;
+    const Vec3d morning = scene.lights.at(0).light.direction;
     const Vec3f* positions = scene.mesh.positions.data();
     set_frame(scene, document, 5);
     EXPECT_EQ(scene.camera.eye, (Vec3d{5, 0, 10}));
-    EXPECT_NEAR(scene.lights.at(0).direction.y, -1, 0.01) << "noon at the equator at equinox";
+    EXPECT_NEAR(scene.lights.at(0).light.direction.y, -1, 0.01) << "noon at the equator at equinox";
     EXPECT_LT(morning.x, -0.8) << "in the morning light comes from the east";
     EXPECT_EQ(scene.mesh.positions.data(), positions);
     set_frame(scene, document, 0);
-    EXPECT_EQ(scene.lights.at(0).direction, morning);
+    EXPECT_EQ(scene.lights.at(0).light.direction, morning);
 }
 
 TEST_F(SceneBuild, TexturesAreDecodedOnce) {

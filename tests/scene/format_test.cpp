@@ -29,13 +29,13 @@ namespace fs = std::filesystem;
 
 std::string committed_doc() {
     std::stringstream text;
-    text << std::ifstream(fs::path(OBSCURA_SOURCE_DIR) / "app/scene_format.md").rdbuf();
+    text << std::ifstream(fs::path(OBSCURA_SOURCE_DIR) / "app/scene/format.md").rdbuf();
     return text.str();
 }
 
 TEST(SceneFormat, DescriptionIsTheCommittedOne) {
     EXPECT_TRUE(scene_format_doc() == committed_doc())
-        << "app/scene_format.md is stale; write it anew: obscura dump --format > app/scene_format.md";
+        << "app/scene/format.md is stale; write it anew: obscura dump --format > app/scene/format.md";
 }
 
 /// Calls fn(table, keys of the table or of one of its variants) for everything below `spec`.
@@ -96,7 +96,7 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
         words(o.file + std::to_string(static_cast<int>(o.aov)));
     h.value(s.optics.enabled).value(s.optics.mask_px).value(s.optics.wavelengths).value(s.optics.tolerance);
     h.value(s.optics.radius_px).value(s.optics.bloom_scale).values(s.optics.mask.pixels);
-    words(s.optics.aperture + "/" + s.optics.light);
+    h.value(s.optics.from_file).value(s.optics.shape.kind).value(s.optics.light.source);
     h.value(s.limits.memory_mib)
         .value(s.limits.triangles)
         .value(s.limits.texture_px)
@@ -115,7 +115,8 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
             .value(c.height_m)
             .value(c.near_m);
         const OpticsSettings& o = s.optics;
-        h.value(o.rotation_deg).value(o.bow).value(o.aspect).value(o.obstruction).value(o.clip);
+        h.value(o.clip).value(o.shape.rotation_deg).value(o.shape.bow).value(o.shape.aspect);
+        h.value(o.shape.obstruction);
         h.value(o.visibility).value(o.visibility_samples).value(o.neighbourhood_px);
         h.value(o.focus_m).value(o.focus_steps);
         const LensDirt& d = o.dirt;
@@ -124,20 +125,21 @@ std::uint64_t fingerprint(const SceneDocument& document, const FileAccess& acces
         h.value(d.scratches).value(d.scratch_width).value(d.scratch_length).value(d.scratch_spread_deg);
         h.value(d.eyelashes).value(d.eyelash_width).value(d.eyelash_length);
         h.value(d.occluder_diameter).value(d.occluder_x).value(d.occluder_y);
-        h.value(o.blades).value(o.vanes).value(o.slits).value(o.lines).value(o.rings);
-        h.value(o.focal_length_mm).value(o.f_number).value(o.sensor_height_mm).value(o.temperature_kelvin);
-        for (const Light& l : s.lights) {
+        h.value(o.shape.blades).value(o.shape.vanes).value(o.shape.slits).value(o.shape.lines);
+        h.value(o.shape.rings);
+        h.value(o.focal_length_mm).value(o.f_number).value(o.sensor_height_mm).value(o.light.kelvin);
+        for (const auto& [l, shadow] : s.lights) {
             words(l.id);
             h.value(l.kind).value(l.direction).value(l.position).value(l.color).value(l.inner_cone_deg);
             h.value(l.outer_cone_deg)
                 .value(l.near_m)
                 .value(l.range_m)
                 .value(l.below_horizon)
-                .value(l.shadow.method);
-            h.value(l.shadow.resolution).value(l.shadow.filter_px).value(l.shadow.receivers);
-            h.value(l.shadow.normal_offset_texels).value(l.shadow.scope).value(l.shadow.filter);
-            h.value(l.shadow.max_magnification).value(l.shadow.layout).value(l.shadow.top_levels);
-            words(l.shadow.cache);
+                .value(shadow.method);
+            h.value(shadow.resolution).value(shadow.filter_px).value(shadow.receivers);
+            h.value(shadow.normal_offset_texels).value(shadow.scope).value(shadow.filter);
+            h.value(shadow.max_magnification).value(shadow.layout).value(shadow.top_levels);
+            words(shadow.cache);
         }
     }
     return h.state;

@@ -1,0 +1,219 @@
+#include "app/scene/light_kinds.h"
+
+#include <algorithm>
+
+#include "app/scene/build.h"
+#include "app/scene/key_ranges.h"
+#include "app/scene/keys.h"
+#include "app/scene/validate.h"
+#include "core/num.h"
+#include "core/sun.h"
+
+namespace obscura {
+namespace {
+
+using namespace key_ranges;
+using Sources = std::vector<std::string>;
+
+/// Unit vector towards (azimuth clockwise from north = -Z, elevation above the horizon).
+Vec3d towards(double azimuth_deg, double elevation_deg) {
+    const double level = num::cos_deg(elevation_deg);
+    return {level * num::sin_deg(azimuth_deg), num::sin_deg(elevation_deg),
+            -level * num::cos_deg(azimuth_deg)};
+}
+
+/// Relative optical air mass. F. Kasten and A. T. Young, "Revised optical air mass tables and approximation
+/// formula", Applied Optics 28 (1989), equation 3. elevation_deg >= 0, as seen.
+double air_mass(double elevation_deg) {
+    return 1.0 / (num::sin_deg(elevation_deg) + 0.50572 * num::pow(elevation_deg + 6.07995, -1.6364));
+}
+
+/// Optical depths of clear air at 615, 535 and 445 nm: Rayleigh scattering (0.008569 / um^4, rounded) plus
+/// 0.06, 0.08 and 0.10 for aerosol and ozone.
+constexpr Vec3d clear_air{0.12, 0.19, 0.31};
+
+// --- directional
+
+KeyRows<Light> directional_rows() {
+    return {
+        {number_key("azimuth_deg", "Where the light comes from, clockwise from north: 90 is east.")
+             .in(turns)
+             .need()
+             .animate()},
+        {number_key("elevation_deg", "Height above the horizon of where the light comes from.")
+             .in({-90, 90})
+             .need()
+             .animate()},
+        key_row(&Light::color,
+                vec3_or_number_key("irradiance_w_m2", "On a surface that faces the light, per channel.")
+                    .in(brightness)
+                    .or_else(Vec3d{3, 3, 3})
+                    .animate()),
+    };
+}
+
+void finish_directional(const SceneTable& table, Light& light) {
+    light.direction = -towards(number(table, "azimuth_deg"), number(table, "elevation_deg"));
+}
+
+// --- sun
+
+KeyRows<Light> sun_rows() {
+    return {
+        {number_key("latitude_deg", "North is positive.").in({-90, 90}).need()},
+        {number_key("longitude_deg", "East is positive.").in({-180, 180}).need()},
+        {date_time_key("time", "Date and time with offset from UTC, as in 2026-06-21T18:00:00+02:00.")
+             .need()
+             .animate()},
+        {number_key(
+             "extraterrestrial_w_m2",
+             "Irradiance per channel above the atmosphere, in the scene's scale. What arrives is dimmed and "
+             "reddened by clear air: exp(-depth * air mass), with depths 0.12, 0.19, 0.31 for red, green, "
+             "blue "
+             "and the air mass of Kasten and Young (1989).")
+             .in(brightness)
+             .or_else(5.0)
+             .animate()},
+        key_row_if_given(
+            &Light::color,
+            vec3_or_number_key(
+                "irradiance_w_m2",
+                "Instead of that: what arrives on a surface that faces the sun. Below the horizon there is "
+                "no sun either way.")
+                .in(brightness)
+                .animate()),
+    };
+}
+
+void finish_sun(const SceneTable& table, Light& light) {
+    const DateTime t = date_time(table, "time");
+    const double hour_utc = t.hour + (t.minute - t.offset_minutes) / 60.0 +
+                            (t.second + static_cast<double>(t.nanosecond) * 1e-9) / 3600.0;
+    const SunPosition sun = solar_position(t.year, t.month, t.day, hour_utc, number(table, "latitude_deg"),
+                                           number(table, "longitude_deg"));
+    const double elevation = sun.apparent_elevation_deg;
+    light.direction = -towards(sun.azimuth_deg, elevation);
+    light.below_horizon = elevation <= 0;
+    if (light.below_horizon) {
+        light.color = {0, 0, 0};
+    } else if (!table.has("irradiance_w_m2")) {
+        const double above = number(table, "extraterrestrial_w_m2"), mass = air_mass(elevation);
+        const auto arriving = [&](double depth) { return above * num::exp(-depth * mass); };
+        light.color = to_float(Vec3d{arriving(clear_air.x), arriving(clear_air.y), arriving(clear_air.z)});
+    }
+}
+
+// --- point
+
+KeyRows<Light> point_rows() {
+    return {
+        key_row(&Light::position, vec3_key("position_m", "Position.").in(anywhere).need().animate()),
+        key_row(&Light::color, vec3_or_number_key("intensity_w_sr", "Radiant intensity, per channel.")
+                                   .in(brightness)
+                                   .need()
+                                   .animate()),
+        key_row(&Light::near_m,
+                number_key("near_m", "Nothing nearer to the light than this casts a shadow.").in(positive)),
+        key_row(&Light::range_m,
+                number_key("range_m", "The light ends smoothly at this distance.").in(positive)),
+    };
+}
+
+void check_point(const SceneTable& light, const Sources& sources) {
+    if (number(light, "near_m") < number(light, "range_m")) return;
+    fail_at(place_of(light, light.find("near_m")->place.source >= 0 ? "near_m" : "range_m"), sources,
+            "'near_m' must be less than 'range_m'");
+}
+
+// --- spot
+
+KeyRows<Light> spot_rows() {
+    return point_rows() +
+           KeyRows<Light>{
+               {vec3_key("look_at_m", "Point on the axis of the cone.").in(anywhere).need().animate()},
+               key_row(&Light::inner_cone_deg,
+                       number_key("inner_cone_deg", "Half angle of the cone of full power.")
+                           .in({0, 85})
+                           .animate()),
+               key_row(&Light::outer_cone_deg,
+                       number_key("outer_cone_deg",
+                                  "Half angle beyond which there is no light; not less than inner_cone_deg.")
+                           .in({0, 85, true})
+                           .animate()),
+           };
+}
+
+void finish_spot(const SceneTable& table, Light& light) {
+    light.direction = normalize(vec3(table, "look_at_m") - light.position);
+}
+
+void check_spot(const SceneTable& light, const Sources& sources) {
+    check_point(light, sources);
+    if (vec3(light, "position_m") == vec3(light, "look_at_m")) {
+        fail_at(place_of(light, "look_at_m"), sources, "'look_at_m' is the same point as 'position_m'");
+    }
+    if (number(light, "inner_cone_deg") > number(light, "outer_cone_deg")) {
+        const bool inner = light.find("inner_cone_deg")->place.source >= 0;
+        fail_at(place_of(light, inner ? "inner_cone_deg" : "outer_cone_deg"), sources,
+                "'inner_cone_deg' must not be more than 'outer_cone_deg'");
+    }
+}
+
+}  // namespace
+
+const std::vector<LightKindRow>& light_kinds() {
+    static const std::vector<LightKindRow> all{
+        {LightKind::directional, "directional", "Parallel light from a given direction.", directional_rows(),
+         finish_directional, nullptr},
+        {LightKind::sun, "sun", "Parallel light from where the sun stands at a place and time.", sun_rows(),
+         finish_sun, nullptr},
+        {LightKind::point, "point", "Light from a point to all sides.", point_rows(), nullptr, check_point},
+        {LightKind::spot, "spot", "Light from a point into a cone.", spot_rows(), finish_spot, check_spot},
+    };
+    return all;
+}
+
+const char* light_kind_name(LightKind kind) {
+    const auto row = std::find_if(light_kinds().begin(), light_kinds().end(),
+                                  [&](const LightKindRow& r) { return r.kind == kind; });
+    return row->name;
+}
+
+const LightKindRow& light_kind_of(const SceneTable& light) {
+    return *std::find_if(light_kinds().begin(), light_kinds().end(),
+                         [&](const LightKindRow& r) { return text(light, "type") == r.name; });
+}
+
+const TableSpec& light_table() {
+    static const TableSpec spec = [] {
+        std::vector<VariantSpec> variants;
+        std::vector<std::string> names;
+        for (const LightKindRow& kind : light_kinds()) {
+            variants.push_back({kind.name, kind.doc, keys_of(kind.keys)});
+            names.emplace_back(kind.name);
+        }
+        return TableSpec{"[[light]]",
+                         "A light. Directions: north is -Z, east is +X, up is +Y.",
+                         {
+                             name_key("id", "Name, unique among lights.").need(),
+                             choice_key("type", names, "Kind of light.").need(),
+                             table_key("shadow", shadow_table()),
+                         },
+                         "type",
+                         std::move(variants)};
+    }();
+    return spec;
+}
+
+SceneLight light_of(const SceneTable& table) {
+    const LightKindRow& kind = light_kind_of(table);
+    SceneLight result;
+    result.light.id = text(table, "id");
+    result.light.kind = kind.kind;
+    read_rows(kind.keys, table, result.light);
+    if (kind.finish != nullptr) kind.finish(table, result.light);
+    result.shadow = shadow_settings_of(subtable(table, "shadow"));
+    return result;
+}
+
+}  // namespace obscura

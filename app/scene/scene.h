@@ -1,0 +1,65 @@
+#pragma once
+// What rendering a frame takes, after the scene file has been read: what is seen (core/scene.h) and how it is
+// rendered.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/scene/optics_settings.h"
+#include "app/scene/shadow_settings.h"
+#include "core/mesh.h"
+#include "core/scene.h"
+#include "filters/tonemap.h"
+#include "raster/intervals.h"
+
+namespace obscura {
+
+struct RenderSettings {
+    int width = 960, height = 540;  ///< pixels
+    int samples = 4;                ///< per pixel: 1, 4 or 16
+    double exposure_ev = 0.0;       ///< linear radiance is scaled by 2^exposure_ev
+    ToneCurve tone = ToneCurve::filmic;
+    Receivers receivers = Receivers::static_only;
+    friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
+};
+
+enum class Aov { beauty, depth, normal, albedo, object, shadow };
+
+struct Output {
+    Aov aov = Aov::beauty;
+    std::string file;  ///< "####" stands for the frame number
+};
+
+/// Bounds that are checked before anything is allocated.
+struct Limits {
+    std::int64_t memory_mib = 4096;
+    std::int64_t triangles = 50'000'000;
+    std::int64_t texture_px = 16384;  ///< longest side
+    std::int64_t texture_mib = 1024;  ///< all decoded textures together
+    std::int64_t frames = 65536;
+    std::int64_t image_px = 16384;  ///< longest side of a frame
+};
+
+/// A light, and how its shadows are made.
+struct SceneLight {
+    Light light;
+    ShadowSettings shadow;
+    friend bool operator==(const SceneLight&, const SceneLight&) = default;
+};
+
+/// One frame's worth of scene: everything is in world space and final.
+struct Scene {
+    Mesh mesh;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    Camera camera;
+    std::vector<SceneLight> lights;
+    Sky sky;
+    RenderSettings render;
+    OpticsSettings optics;
+    std::vector<Output> outputs;
+    Limits limits;
+};
+
+}  // namespace obscura

@@ -1,0 +1,51 @@
+#pragma once
+// How the shadows of one light are made and filtered.
+
+#include <string>
+
+#include "app/scene/words.h"
+#include "hierarchy/tree_code.h"
+#include "raster/intervals.h"
+
+namespace obscura {
+
+/// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals.
+enum class ShadowMethod { none, map, compressed };
+/// Which part of a compressed map is built: what the frame's lookups ask for, or everything.
+enum class ShadowScope { frame, full };
+/// `pcf`: a kernel of texels. `hierarchical`: of the squares that are as large as the pixel on the map.
+enum class ShadowFilter { pcf, hierarchical };
+
+inline constexpr Word<ShadowMethod> shadow_method_words[] = {
+    {"none", ShadowMethod::none}, {"map", ShadowMethod::map}, {"compressed", ShadowMethod::compressed}};
+inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope::frame},
+                                                           {"full", ShadowScope::full}};
+inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},
+                                                             {"hierarchical", ShadowFilter::hierarchical}};
+inline constexpr Word<TreeLayout> tree_layout_words[] = {
+    {"words24", TreeLayout::words24}, {"words16", TreeLayout::words16}, {"bytes16", TreeLayout::bytes16}};
+inline constexpr Word<Receivers> receivers_words[] = {{"any", Receivers::any},
+                                                      {"static", Receivers::static_only}};
+
+constexpr int auto_resolution = 0;
+constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;
+
+struct ShadowSettings {
+    ShadowMethod method = ShadowMethod::compressed;
+    /// Texels per side, a power of two from least_map_resolution to most_dense_resolution (map) or
+    /// most_map_resolution (compressed); or, compressed only, auto_resolution.
+    int resolution = auto_resolution;
+    int filter_px = 3;  ///< PCF kernel side in texels, odd: to 5 (map) or 15 (compressed)
+    Receivers receivers = Receivers::static_only;
+    double normal_offset_texels = 1.5;  ///< bias of receivers on open components only
+    // Compressed only.
+    ShadowScope scope = ShadowScope::frame;
+    ShadowFilter filter = ShadowFilter::pcf;
+    double max_magnification = 1.0;  ///< auto: pixels that a texel spans at most, the shorter way
+    TreeLayout layout = TreeLayout::words24;
+    int top_levels = 6;  ///< first levels that are kept as a table, in [0, 10]
+    std::string cache;   ///< folder for finished maps of scope full; empty: none
+    friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
+};
+
+}  // namespace obscura
