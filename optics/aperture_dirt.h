@@ -3,7 +3,7 @@
 
 #include "core/image.h"
 #include "core/lens_dirt.h"
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 
 namespace obscura {
 

@@ -13,7 +13,7 @@
 #include "core/lens_dirt.h"
 #include "optics/aperture_shapes.h"
 #include "optics/far_field.h"
-#include "optics/field.h"
+#include "optics/field/field.h"
 #include "optics/near_field.h"
 #include "optics/pattern_view.h"
 #include "optics/spectrum.h"
