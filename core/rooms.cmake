@@ -90,6 +90,9 @@ function(obscura_kernel_options target isa)
   target_compile_definitions(${target} PRIVATE OBSCURA_ISA=${isa} OBSCURA_ISA_${isa}=1)
   target_compile_options(${target} PRIVATE ${OBSCURA_ISA_FLAGS_${isa}} -O3 -DNDEBUG
     $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized> -fno-exceptions -fno-rtti)
+  if(NOT isa STREQUAL sse2)
+    set_target_properties(${target} PROPERTIES OBSCURA_UNWATCHED ON)
+  endif()
 endfunction()
 
 function(add_simd_kernels room)

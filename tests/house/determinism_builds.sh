@@ -1,15 +1,12 @@
 #!/bin/sh
 # One picture for every build: renders every scene of scenes/tests with the given release binary, with a debug
 # build and, where clang++ exists, with the clang preset, and compares the files byte by byte.
-# Usage: determinism_builds.sh RELEASE_BINARY. Builds take minutes when nothing is cached, so this runs in CI
-# and with OBSCURA_SLOW_TESTS=1; otherwise it exits 77, which counts as skipped.
+#   determinism_builds.sh RELEASE_BINARY BUILDS_FOLDER     the other builds are made there
+# They compile the program alone: no tests, benches or lessons, and no information for debuggers.
 set -eu
-if [ "${CI:-}" != true ] && [ "${OBSCURA_SLOW_TESTS:-}" != 1 ]; then
-    echo "skipped: builds the program again; set OBSCURA_SLOW_TESTS=1 to run it"
-    exit 77
-fi
 release=$(realpath "$1")
-cd "$(dirname "$0")/.."
+builds=$2
+cd "$(dirname "$0")/../.."
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 
@@ -37,9 +34,11 @@ fi
 pictures "$release" release
 failed=0
 for preset in $presets; do
-    cmake --preset "$preset" > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
-    cmake --build --preset "$preset" --target obscura > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
-    pictures "build/$preset/app/obscura" "$preset"
+    build=$builds/$preset
+    cmake --preset "$preset" -B "$build" -DCMAKE_CXX_FLAGS_DEBUG= -DOBSCURA_FUZZ=OFF \
+        -DOBSCURA_TESTS=OFF -DOBSCURA_BENCH=OFF -DOBSCURA_LESSONS=OFF > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
+    cmake --build "$build" --target obscura > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
+    pictures "$build/bin/obscura" "$preset"
     for expected in "$out"/release-*; do
         actual="$out/$preset-${expected#"$out"/release-}"
         if cmp "$expected" "$actual"; then continue; fi

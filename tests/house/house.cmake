@@ -7,8 +7,17 @@ function(house_test name)
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 endfunction()
 
-set(here ${CMAKE_CURRENT_SOURCE_DIR})
-foreach(check doors includes libm files format)
+# Those that take minutes have both cores for themselves.
+function(slow_house_test name)
+  house_test(${name} ${ARGN})
+  set_tests_properties(House.${name} PROPERTIES LABELS "slow build" TIMEOUT 1800 RUN_SERIAL ON)
+endfunction()
+
+set(here ${CMAKE_CURRENT_SOURCE_DIR}/house)
+# Builds that checks make for themselves.
+set(other_builds ${CMAKE_BINARY_DIR}/other_builds)
+
+foreach(check doors includes libm files links format)
   house_test(${check} ${here}/house_checks.sh ${check} ${CMAKE_SOURCE_DIR})
 endforeach()
 house_test(checks_find_violations ${here}/house_checks.sh self-test)
@@ -29,15 +38,31 @@ foreach(room ${rooms})
 endforeach()
 file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/rooms.txt CONTENT "${walls}")
 house_test(room_walls ${here}/room_walls.sh ${CMAKE_CXX_COMPILER} ${CMAKE_BINARY_DIR}/rooms.txt ${CMAKE_SOURCE_DIR})
+house_test(room_walls_find_violations ${here}/room_walls.sh self-test ${CMAKE_CXX_COMPILER})
 
-# The two commands, and what cmake --install leaves behind.
+# The lists of slow and of sanitized tests name tests.
+get_property(programs GLOBAL PROPERTY OBSCURA_TEST_PROGRAMS)
+set(paths "")
+foreach(program ${programs})
+  string(APPEND paths "$<TARGET_FILE:${program}>\n")
+endforeach()
+file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/test_programs.txt CONTENT "${paths}")
+house_test(slow_names ${here}/slow_names.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/test_programs.txt)
+
+# The launcher, and what cmake --install leaves behind.
 house_test(launcher ${here}/launcher_test.sh ${CMAKE_SOURCE_DIR})
 house_test(install ${here}/install_test.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR})
 
-# Debug and clang++ builds render the same bytes. Minutes when nothing is cached.
-house_test(other_builds ${here}/determinism_builds.sh $<TARGET_FILE:obscura>)
-set_tests_properties(House.other_builds PROPERTIES TIMEOUT 1800 RUN_SERIAL ON)
+# Debug and clang++ builds render the same bytes.
+slow_house_test(other_builds ${here}/determinism_builds.sh $<TARGET_FILE:obscura> ${other_builds})
 
-# clang-tidy over core, raster, hierarchy and filters. Minutes.
-house_test(tidy ${here}/tidy_check.sh ${CMAKE_BINARY_DIR})
-set_tests_properties(House.tidy PROPERTIES TIMEOUT 1800)
+# No report from the address and undefined-behaviour sanitizers.
+slow_house_test(sanitizers ${here}/sanitizers.sh ${CMAKE_SOURCE_DIR} ${other_builds}/sanitizers)
+house_test(sanitizers_find_violations ${here}/sanitizers.sh ${CMAKE_SOURCE_DIR} ${other_builds}/sanitizers self-test)
+
+# Every file names the headers it needs, whatever the precompiled ones bring; and clang-tidy's rules hold. The number
+# is the seconds after which files that have not changed lately are left out.
+set(plain ${other_builds}/plain)
+slow_house_test(includes_stand_alone ${here}/file_by_file.sh includes ${plain} ${CMAKE_SOURCE_DIR} 150)
+slow_house_test(tidy ${here}/file_by_file.sh tidy ${plain} ${CMAKE_SOURCE_DIR} 120)
+house_test(file_by_file_finds_violations ${here}/file_by_file.sh self-test ${CMAKE_CXX_COMPILER})

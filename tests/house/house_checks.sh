@@ -73,6 +73,54 @@ check_files() {
     sources | grep '\.h$' | xargs -r grep -L '^#pragma once' | sed 's/$/: no #pragma once/'
 }
 
+# Every relative link and every file that a README or a limits.md names is there: beside the page or below it, or named
+# from the top. A file is a name with an ending of sources or pages; data and pictures only with their folder. Words in
+# capitals stand for something else (NAME.txt), and what a build or the reader makes is not looked for.
+check_links() {
+    local pages
+    mapfile -t pages < <(find . \( -name README.md -o -name limits.md \) -not -path './build/*' -not -path './.git/*' | sort)
+    [ ${#pages[@]} -gt 0 ] || return 0
+    find . -not -path './build/*' -not -path './.git/*' | awk '
+        function tidy(path) {
+            gsub(/\/\.\//, "/", path)
+            sub(/\/$/, "", path)
+            while (sub(/[^\/]+\/\.\.\//, "", path)) {}
+            return path
+        }
+        function is_there(name, folder,   i, n, list, base) {
+            if (tidy(folder name) in present || tidy("./" name) in present) return 1
+            base = name; sub(/.*\//, "", base)
+            n = split(with_base[base], list, "\n")
+            for (i = 1; i <= n; ++i)
+                if (index(list[i], folder) == 1 && substr("/" list[i], length(list[i]) - length(name) + 1) == "/" name) return 1
+            return 0
+        }
+        FNR == NR {
+            present[$0] = 1; base = $0; sub(/.*\//, "", base); with_base[base] = with_base[base] "\n" $0
+            next
+        }
+        {
+            page = FILENAME; sub(/^\.\//, "", page); folder = FILENAME; sub(/[^\/]*$/, "", folder)
+            line = $0
+            while (match(line, /\]\([^)]*\)/)) {
+                link = substr(line, RSTART + 2, RLENGTH - 3); line = substr(line, RSTART + RLENGTH)
+                sub(/#.*/, "", link)
+                if (link != "" && link !~ /^[a-z]+:/ && !(tidy(folder link) in present))
+                    print page ":" FNR ": the link " link " leads nowhere"
+            }
+            line = $0
+            gsub(/\]\([^)]*\)/, "", line); gsub(/\/\.cpp/, "", line)
+            while (match(line, /[A-Za-z0-9_.\/*{},#~$<>-]*[A-Za-z0-9_]\.(h|cpp|md|sh|cmake|txt|toml|obj|png|svg|csv)/)) {
+                name = substr(line, RSTART, RLENGTH); line = substr(line, RSTART + RLENGTH)
+                if (line ~ /^[A-Za-z0-9_\/*-]/ || name ~ /[*{},#~$<>]/ || name ~ /^(\/|\.\.\/|build\/|out\/)/) continue
+                placeholder = name; gsub(/README|LICENSE|CMakeLists/, "", placeholder)
+                if (placeholder ~ /[A-Z]/ || (name ~ /\.(txt|toml|obj|png|svg|csv)$/ && name !~ /[a-z]\//)) continue
+                sub(/^\.\//, "", name)
+                if (!is_there(name, folder)) print page ":" FNR ": there is no " name
+            }
+        }' - "${pages[@]}"
+}
+
 check_format() {
     local version
     version=$(clang-format --version 2>/dev/null | grep -oE '[0-9]+\.' | head -1)
@@ -143,6 +191,12 @@ self_test() {
     plant files core/a.cpp "$(printf 'x\\n%.0s' {1..401})" found
     plant files core/a.cpp '// TODO later\n' found
     plant files core/a.h '#pragma once\nint f();\n' clean
+    plant links core/README.md 'See [there](b.md).\n' found
+    plant links core/README.md 'See [here](README.md#top) and [top](https://a.b/c.md).\n' clean
+    plant links core/README.md 'Read `gone.h` first.\n' found
+    plant links core/limits.md '| `core/gone.cpp` | it |\n' found
+    plant links core/README.md '`README.md`, core/README.md, NAME.txt, `*_ref.cpp`, picture.png, build/x.txt\n' clean
+    plant links core/README.md './obscura render scenes/gone.toml\n' found
     plant format core/a.cpp 'int  f( ) ;\n' found
     plant format core/a.cpp 'int f();\n' clean
     rm -rf "$work"

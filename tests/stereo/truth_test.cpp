@@ -147,8 +147,6 @@ TEST(TruthAt960, Base) {
 }
 
 TEST(TruthAt960, Contradictory) {
-    if (std::getenv("CI") == nullptr && std::getenv("OBSCURA_SLOW_TESTS") == nullptr)
-        GTEST_SKIP() << "factorising takes ten seconds: set OBSCURA_SLOW_TESTS=1";
     compare(StereoCase::contradictory, {960, 540}, 12);
 }
 

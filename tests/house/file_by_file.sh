@@ -1,0 +1,129 @@
+#!/bin/bash
+# One source file after the other, without the precompiled headers: what changed lately first, until time is up.
+#   file_by_file.sh includes BUILD_DIR SOURCE_DIR SECONDS  every file compiles with the includes it names itself
+#   file_by_file.sh tidy BUILD_DIR SOURCE_DIR SECONDS      clang-tidy 14 with the rules of .clang-tidy: core, raster,
+#       hierarchy and filters whole, however long it takes; of the other rooms what changed, until time is up
+#   file_by_file.sh self-test CXX
+# BUILD_DIR is made for it: a release build that is configured with OBSCURA_PRECOMPILE=OFF and never built. Changed
+# is what differs from the last commit or was in a commit of the last day before it, and the sources that include such
+# a header. What is left out is named.
+set -u -o pipefail
+export LC_ALL=C
+self=$(realpath "$0")
+
+# One file, in a process of its own: FILE, DIRECTORY and COMMAND of the compiler, tabs between.
+look_at() {  # look_at MODE BUILD_DIR DEADLINE LINE
+    IFS=$'\t' read -r file directory command <<<"$4"
+    if [ "$3" -gt 0 ] && [ "$(date +%s)" -ge "$3" ]; then
+        echo "left out: $file"
+        return 0
+    fi
+    local status=0
+    if [ "$1" = tidy ]; then
+        clang-tidy -p "$2" --quiet --extra-arg=-Wno-unknown-warning-option "$file" 2>/dev/null || status=$?
+    else
+        # Parsing alone, without the compiler cache, which has nothing to keep here.
+        command=$(sed -E 's|^.*/ccache ||; s| -o [^ ]+ -c | -fsyntax-only |; s| -O3 | -O0 |g' <<<"$command")
+        (cd "$directory" && $command) 2>&1 || status=$?
+    fi
+    if [ $status -eq 0 ]; then echo "fine: $file"; else echo "failed: $file"; fi
+}
+
+# FILE, DIRECTORY, COMMAND of every file once; kernels with their narrowest instruction set.
+commands() {
+    awk -v OFS='\t' '
+        function value(line) { sub(/^[^:]*: "/, "", line); sub(/",?$/, "", line); return line }
+        /^ *"directory":/ { directory = value($0) }
+        /^ *"command":/ { command = value($0); gsub(/\\"/, "\"", command); gsub(/\\\\/, "\\", command) }
+        /^ *"file":/ {
+            file = value($0)
+            if (command !~ /_kernels_avx/ && file !~ /\/parsed_for_/ && !(file in seen)) print file, directory, command
+            seen[file] = 1
+        }' "$1/compile_commands.json"
+}
+
+# Files that changed, and sources that include a header which did.
+changed_files() {
+    local last changed
+    last=$(git log -1 --format=%ct 2>/dev/null) || { echo "no history: nothing counts as changed" >&2; return 0; }
+    changed=$( (git log --since="$((last - 86400))" --name-only --format= && git diff --name-only HEAD) |
+        grep -E '\.(h|cpp)$' | sort -u)
+    [ -n "$changed" ] || return 0
+    echo "$changed"
+    grep '\.h$' <<<"$changed" | sed 's/.*/"&"/' | grep -rlF --include='*.cpp' -f - core raster hierarchy filters optics \
+        stereo scenes app lessons bench tests 2>/dev/null
+}
+
+run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
+    local work deadline
+    work=$(mktemp -d)
+    cd "$3" || exit 1
+    commands "$2" >"$work/all"
+    [ -s "$work/all" ] || { echo "no commands in $2/compile_commands.json"; return 1; }
+    changed_files | sort -u | sed "s|^|$PWD/|" >"$work/changed"
+    awk -F '\t' 'FILENAME == ARGV[1] { is[$1] = 1; next } $1 in is' "$work/changed" "$work/all" >"$work/first"
+    awk -F '\t' 'FILENAME == ARGV[1] { is[$1] = 1; next } !($1 in is)' "$work/changed" "$work/all" >"$work/then"
+    : >"$work/always"
+    if [ "$1" = tidy ]; then
+        # Not kernels, which are built once per instruction set; not image_io.cpp, which holds all of stb.
+        local not='_kernel\.cpp'$'\t''|/image_io\.cpp'$'\t' rooms="^$PWD/(core|raster|hierarchy|filters)/"
+        grep -E "$rooms" "$work/all" | grep -vE "$not" >"$work/always"
+        grep -vE "$rooms" "$work/first" | grep -vE "$not" >"$work/timed"
+    else
+        cat "$work/first" "$work/then" >"$work/timed"
+    fi
+    deadline=$(($(date +%s) + $4))
+    each() { xargs -r -d '\n' -P 2 -n 1 bash "$self" look-at "$1" "$2" "$3" <"$4"; }
+    { each "$1" "$2" 0 "$work/always"; each "$1" "$2" "$deadline" "$work/timed"; } >"$work/out"
+    grep -vE '^(fine|left out): ' "$work/out"
+    echo "$(grep -c '^fine: ' "$work/out") files are fine, $(grep -c '^failed: ' "$work/out") are not;" \
+        "$(wc -l <"$work/first") of $(wc -l <"$work/all") have changed"
+    grep '^left out: ' "$work/out" && echo "(left out: no time for them in $4 seconds)"
+    local failed=0
+    if grep -q '^failed: ' "$work/out"; then failed=1; fi
+    if [ "$(grep -cE '^(fine|failed|left out): ' "$work/out")" -ne "$(cat "$work/always" "$work/timed" | wc -l)" ]; then
+        echo "not every file was looked at"
+        failed=1
+    fi
+    rm -rf "$work"
+    return $failed
+}
+
+# Two files, one of which lacks an include, in a small house without history.
+self_test() {
+    local work failures=0
+    work=$(mktemp -d)
+    mkdir "$work/core"
+    echo '#include <vector>
+          std::vector<int> f() { return {}; }' >"$work/core/good.cpp"
+    echo 'std::vector<int> f() { return {}; }' >"$work/core/bad.cpp"
+    for file in good bad; do
+        printf '{\n  "directory": "%s",\n  "command": "%s -o a.o -c %s",\n  "file": "%s"\n},\n' \
+            "$work" "$1 -O3" "$work/core/$file.cpp" "$work/core/$file.cpp"
+    done >"$work/compile_commands.json"
+    expect() {  # expect SECONDS PATTERN STATUS
+        out=$(run includes "$work" "$work" "$1" 2>&1)
+        status=$?
+        if [ "$status" -eq "$3" ] && grep -q "$2" <<<"$out"; then return; fi
+        printf 'FAILED: expected "%s" and %s, got %s and:\n%s\n' "$2" "$3" "$status" "$out"
+        failures=1
+    }
+    expect 60 "failed: $work/core/bad.cpp" 1
+    expect 60 '1 files are fine, 1 are not' 1
+    expect 0 "left out: $work/core/good.cpp" 0
+    rm -rf "$work"
+    return $failures
+}
+
+case $1 in
+    look-at) look_at "${@:2}" ;;
+    self-test) self_test "$2" ;;
+    *)
+        if [ "$1" = tidy ] && ! clang-tidy --version 2>/dev/null | grep -q 'version 14\.'; then
+            echo "skipped: clang-tidy 14 is not installed"
+            exit 77
+        fi
+        cmake --preset release -S "$3" -B "$2" -DOBSCURA_PRECOMPILE=OFF >"$2.log" 2>&1 || { cat "$2.log"; exit 1; }
+        run "$@"
+        ;;
+esac

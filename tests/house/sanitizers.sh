@@ -1,0 +1,38 @@
+#!/bin/bash
+# The tests of sanitized.txt, built with the preset asan-ubsan: any report fails.
+#   sanitizers.sh SOURCE_DIR BUILD_DIR [self-test]
+# self-test builds nothing of the house: a program that reads past its array must be reported with the preset's flags.
+set -u -o pipefail
+cd "$1" || exit 1
+build=$2
+mkdir -p "$build"
+
+if [ "${3-}" = self-test ]; then
+    flags=$(sed -n 's/.*"OBSCURA_SANITIZE": "\(address[a-z,]*\)".*/\1/p' CMakePresets.json)
+    echo 'int main(int count, char**) { int* a = new int[1]; int past = a[count]; delete[] a; return past == 7 ? 1 : 0; }' >"$build/past.cpp"
+    "${CXX:-c++}" "-fsanitize=$flags" -o "$build/past" "$build/past.cpp" || exit 1
+    if "$build/past" >/dev/null 2>&1; then
+        echo "reading past an array was not reported"
+        exit 1
+    fi
+    exit 0
+fi
+
+# Line numbers are enough for a report.
+cmake --preset asan-ubsan -B "$build" -DCMAKE_CXX_FLAGS_DEBUG=-g1 -DOBSCURA_PEERS=OFF >"$build/log" 2>&1 || { cat "$build/log"; exit 1; }
+programs=$(grep -E '^[a-z]' tests/house/sanitized.txt | awk '{ print $1 }')
+cmake --build "$build" --target $programs >"$build/log" 2>&1 || { tail -n 60 "$build/log"; exit 1; }
+
+failed=0
+while read -r program filter; do
+    found=$(find "$build/tests" -name "$program" -type f)
+    if ! (cd "$build" && UBSAN_OPTIONS=print_stacktrace=1 timeout 300 "$found" --gtest_brief=1 "--gtest_filter=$filter") >"$build/run.log" 2>&1; then
+        echo "FAILED: $program --gtest_filter=$filter"
+        cat "$build/run.log"
+        failed=1
+    elif ! grep -qE '^\[==========\] [1-9][0-9]* tests? ' "$build/run.log"; then
+        echo "FAILED: $program --gtest_filter=$filter ran no test"
+        failed=1
+    fi
+done < <(grep -E '^[a-z]' tests/house/sanitized.txt)
+exit $failed
