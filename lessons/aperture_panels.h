@@ -6,7 +6,7 @@
 
 #include "lessons/drawing/figure.h"
 #include "optics/aperture_shapes.h"
-#include "optics/quads.h"
+#include "optics/field/quads.h"
 
 namespace obscura {
 

@@ -4,7 +4,7 @@
 #include "core/isa.h"
 #include "core/pixel.h"
 #include "optics/psf.h"
-#include "optics/spectral_lookup.h"
+#include "optics/thesis/spectral_lookup.h"
 
 namespace obscura {
 

@@ -17,8 +17,8 @@
 #include "lessons/ladder.h"
 #include "lessons/pattern_panels.h"
 #include "lessons/quad_fields.h"
-#include "optics/row_runs.h"
-#include "optics/separable_terms.h"
+#include "optics/field/row_runs.h"
+#include "optics/field/separable_terms.h"
 
 namespace obscura {
 namespace {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "optics/far_field_methods.h"
+#include "optics/thesis/far_field.h"
 
 namespace obscura {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "core/isa.h"
 #include "optics/far_field.h"
-#include "optics/quads.h"
+#include "optics/field/quads.h"
 
 namespace obscura {
 

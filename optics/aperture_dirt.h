@@ -2,7 +2,7 @@
 // Apertures as they are: smeared, dusty, scratched, behind eyelashes, partly hidden.
 
 #include "core/image.h"
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 #include "optics/lens_dirt.h"
 
 namespace obscura {

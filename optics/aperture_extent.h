@@ -1,7 +1,7 @@
 #pragma once
 // How wide an aperture is: what sets how finely its pattern varies.
 
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 
 namespace obscura {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Apertures as shapes: outlines of any size, and masks with exact coverage.
 
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 
 namespace obscura {
 

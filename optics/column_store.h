@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "optics/field.h"
+#include "optics/field/field.h"
 
 namespace obscura {
 

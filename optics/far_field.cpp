@@ -8,9 +8,10 @@
 #include "core/parallel.h"
 #include "optics/far_field_methods.h"
 #include "optics/far_field_plan.h"
+#include "optics/field/row_runs.h"
 #include "optics/half_plane.h"
 #include "optics/natural_transform.h"
-#include "optics/row_runs.h"
+#include "optics/thesis/far_field.h"
 
 namespace obscura {
 namespace {
@@ -97,6 +98,30 @@ FarFieldReport compute_mirrored(const Aperture& aperture, const FrequencyGrid& g
 }
 
 }  // namespace
+
+const char* far_field_method_name(FarFieldMethod method) {
+    switch (method) {
+        case FarFieldMethod::automatic:
+            return "automatic";
+        case FarFieldMethod::direct:
+            return "direct";
+        case FarFieldMethod::shift:
+            return "shift";
+        case FarFieldMethod::gemm:
+            return "gemm";
+        case FarFieldMethod::edges:
+            return "edges";
+        case FarFieldMethod::levels:
+            return "levels";
+        case FarFieldMethod::runs:
+            return "runs";
+        case FarFieldMethod::raster_fft:
+            return "raster_fft";
+        case FarFieldMethod::polygon:
+            return "polygon";
+    }
+    return "?";
+}
 
 Field far_field(const Aperture& aperture, const FrequencyGrid& grid, const FarFieldParams& params,
                 const Exec& exec, FarFieldReport* report) {

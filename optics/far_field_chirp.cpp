@@ -19,9 +19,10 @@
 #include "core/num.h"
 #include "core/parallel.h"
 #include "filters/fft.h"
-#include "optics/chirp.h"
-#include "optics/phasor.h"
-#include "optics/row_runs.h"
+#include "optics/column_products.h"
+#include "optics/field/phasor.h"
+#include "optics/field/row_runs.h"
+#include "optics/field/sinc.h"
 #include "optics/run_sums.h"
 
 namespace obscura {
@@ -36,11 +37,6 @@ struct Factors {
         im.push_back(static_cast<float>(size * num::sin(angle)));
     }
 };
-
-double sinc(double v) {
-    const double angle = num::pi * (v - 2 * std::floor(v / 2 + 0.5));
-    return v == 0 ? 1 : num::sin(angle) / (num::pi * v);
-}
 
 /// Rows first to first + count - 1 of the grid.
 struct Tile {
@@ -67,7 +63,7 @@ ChirpTransform chirp_transform(int rows, const FrequencyGrid& grid) {
         for (int y = 0; y < rows; ++y)
             tile.before.push_turns(v0 * (y + middle) + dv * y * y / 2, 1);
         for (int k = 0; k < tile.count; ++k)
-            tile.after.push_turns(dv * k * middle + dv * k * k / 2, sinc(v0 + k * dv));
+            tile.after.push_turns(dv * k * middle + dv * k * k / 2, sinc_in_double(v0 + k * dv));
         t.tiles.push_back(std::move(tile));
     }
     // The chirp from -(rows - 1) to most - 1, around the corner, is transformed in the first lane.
@@ -196,20 +192,20 @@ void far_field_chirp(ImageView<const float> mask, const RowRuns& runs, const Fre
         const int column = 16 * static_cast<int>(group), lanes = std::min(16, grid.width - column);
         sum_columns(sums, mask.width, ramp, column, exec.isa, row_re, row_im);
         for (const Tile& tile : t.tiles) {
-            std::fill(std::copy(row_re.begin(), row_re.end(), re.begin()), re.end(), 0.0f);
-            std::fill(std::copy(row_im.begin(), row_im.end(), im.begin()), im.end(), 0.0f);
-            OBSCURA_DISPATCH(exec.isa, scale_rows16, tile.before.re.data(), tile.before.im.data(),
-                             mask.height, re.data(), im.data());
+            OBSCURA_DISPATCH(exec.isa, multiply16, row_re.data(), row_im.data(), tile.before.re.data(),
+                             tile.before.im.data(), mask.height, re.data(), im.data());
+            std::fill(re.begin() + used, re.end(), 0.0f);
+            std::fill(im.begin() + used, im.end(), 0.0f);
             fft16_forward(t.plan, re.data(), im.data(), exec.isa);
-            OBSCURA_DISPATCH(exec.isa, scale_rows16, t.spectrum.re.data(), t.spectrum.im.data(),
-                             t.plan.length(), re.data(), im.data());
+            OBSCURA_DISPATCH(exec.isa, multiply16, re.data(), im.data(), t.spectrum.re.data(),
+                             t.spectrum.im.data(), t.plan.length(), re.data(), im.data());
             fft16_backward(t.plan, re.data(), im.data(), exec.isa);
             FieldTarget part = target;
             const std::ptrdiff_t skip = target.stride * tile.first;
             if (part.re != nullptr) part.re += skip;
             if (part.im != nullptr) part.im += skip;
             if (part.power != nullptr) part.power += skip;
-            OBSCURA_DISPATCH(exec.isa, store_rows16, re.data(), im.data(), tile.after.re.data(),
+            OBSCURA_DISPATCH(exec.isa, store_products16, re.data(), im.data(), tile.after.re.data(),
                              tile.after.im.data(), tile.count, column, lanes, part);
         }
     });

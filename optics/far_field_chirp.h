@@ -4,9 +4,9 @@
 #include "core/image.h"
 #include "core/isa.h"
 #include "optics/far_field.h"
-#include "optics/field.h"
-#include "optics/natural_grid.h"
-#include "optics/row_runs.h"
+#include "optics/field/field.h"
+#include "optics/field/natural_grid.h"
+#include "optics/field/row_runs.h"
 
 namespace obscura {
 

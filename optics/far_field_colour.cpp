@@ -1,9 +1,8 @@
-// The coloured far field, wavelength by wavelength.
+// The coloured far field.
 //
 // L. Scandolo: thesis, 2019, section 3.4.3, equations 3.15 to 3.17. The paper looks one pattern up at 60
-// scales
-// (`lookup`), or four at a time (`batch`). The default, `exact`, computes each wavelength's pattern on its
-// own grid, since it costs little more here and bilinear lookups are the larger error.
+// scales, or four at a time. The default, `exact`, computes each wavelength's pattern on its own grid, since
+// it costs little more here and bilinear lookups are the larger error.
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +11,11 @@
 #include "core/parallel.h"
 #include "optics/aperture_extent.h"
 #include "optics/psf.h"
-#include "optics/spectral_lookup.h"
+#include "optics/thesis/scaled_colours.h"
 
 namespace obscura {
 
 namespace {
-
-constexpr int lookup_wavelengths = 60;
-constexpr int batch_lookups = 15;
 
 struct Colouring {
     const Aperture& aperture;
@@ -64,7 +60,21 @@ int wavelength_count(const Colouring& c, double tolerance) {
     return spectral_rate(c.light, fringes * c.reference_nm / 550, tolerance).count;
 }
 
-std::vector<SpectralSample> exact_samples(const Colouring& c, const PsfParams& params) {
+/// How they are added up: lines have no even ladder of wavelengths, so batches of four look them up singly.
+SpectralMethod method_for(const PsfParams& params) {
+    const bool lines = params.method == SpectralMethod::batch && geometric_samples(params.light, 4).empty();
+    return lines ? SpectralMethod::lookup : params.method;
+}
+
+std::vector<SpectralSample> samples_of(const Colouring& c, const PsfParams& params) {
+    switch (method_for(params)) {
+        case SpectralMethod::batch:
+            return geometric_samples(params.light, 4 * batch_lookups);
+        case SpectralMethod::lookup:
+            return spectral_samples(params.light, params.wavelengths > 0 ? params.wavelengths : full_lookups);
+        case SpectralMethod::exact:
+            break;
+    }
     return spectral_samples(
         params.light, params.wavelengths > 0 ? params.wavelengths : wavelength_count(c, params.tolerance));
 }
@@ -91,47 +101,25 @@ void add_exact(const Colouring& c, const std::vector<SpectralSample>& samples, I
     }
 }
 
-/// A power image that serves all samples' scales, at least twice as fine as power needs.
-PowerImage power_for(const Colouring& c, const std::vector<SpectralSample>& samples, const Exec& exec) {
-    const OpenExtent extent = open_extent(c.aperture.mask.view());
-    PowerImage image;
-    image.grid =
-        scaled_cover(c.grid, scale_of(c, samples.back()), scale_of(c, samples.front()), lookup_step(extent));
-    image.power = far_field_power(c.aperture, image.grid, {}, exec);
-    return image;
-}
-
-void add_lookups(const Colouring& c, const std::vector<SpectralSample>& samples, Image<Vec3f>& sum,
-                 const Exec& exec) {
+/// The wavelengths as one pattern scaled.
+std::vector<ScaledColour> scaled_colours(const Colouring& c, const std::vector<SpectralSample>& samples) {
     const std::vector<Vec3d> weights = weights_of(c, samples);
-    const PowerImage from = power_for(c, samples, exec);
+    std::vector<ScaledColour> colours;
     for (std::size_t i = 0; i < samples.size(); ++i)
-        add_scaled_power(from, c.grid, scale_of(c, samples[i]), weights[i], Interpolation::cubic, sum, exec);
+        colours.push_back({scale_of(c, samples[i]), weights[i]});
+    return colours;
 }
 
-/// Sample 4 j + i has the scale of sample 4 j times that of ladder[i].
-void add_batches(const Colouring& c, const std::vector<SpectralSample>& samples, Image<Vec3f>& sum,
-                 const Exec& exec) {
-    const std::vector<Vec3d> weights = weights_of(c, samples);
-    const PowerImage from = power_for(c, samples, exec);
-    double ladder[4];
-    for (std::size_t i = 0; i < 4; ++i)
-        ladder[i] = samples[0].wavelength_nm / samples[i].wavelength_nm;
-    const PowerBatch batch = gather_batch(from, from.grid, ladder, Interpolation::cubic, exec);
-    for (std::size_t j = 0; j < batch_lookups; ++j) {
-        const Vec3d four[4] = {weights[4 * j], weights[4 * j + 1], weights[4 * j + 2], weights[4 * j + 3]};
-        add_scaled_batch(batch, c.grid, scale_of(c, samples[4 * j]), four, Interpolation::cubic, sum, exec);
-    }
+/// Where that pattern is computed: at least twice as finely as power needs.
+FrequencyGrid pattern_grid_for(const Colouring& c, const std::vector<ScaledColour>& colours) {
+    return pattern_grid(c.grid, colours, lookup_step(open_extent(c.aperture.mask.view())));
 }
 
 Colouring colouring_of(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
                        const PsfParams& params) {
     if (!(reference_nm >= 100 && reference_nm <= 10000))
-        throw UsageError("reference wavelength must be 100 to 10000 nm");
-    if (params.wavelengths < 0 || params.wavelengths > 100000)
-        throw UsageError("wavelength count must be 0 to 100000");
-    if (!(params.tolerance >= 1e-4 && params.tolerance <= 0.5))
-        throw UsageError("tolerance must be 0.0001 to 0.5");
+        throw InputError("", "reference wavelength must be 100 to 10000 nm");
+    check_sampling(params.wavelengths, params.tolerance);
     const Colouring c{aperture, grid, reference_nm, open_area(aperture.mask.view()), params.light};
     if (!(c.peak > 0)) throw InputError("aperture", "lets no light through");
     return c;
@@ -139,14 +127,33 @@ Colouring colouring_of(const Aperture& aperture, const FrequencyGrid& grid, doub
 
 }  // namespace
 
+const char* spectral_method_name(SpectralMethod method) {
+    switch (method) {
+        case SpectralMethod::exact:
+            return "exact";
+        case SpectralMethod::lookup:
+            return "full60";
+        case SpectralMethod::batch:
+            return "batch4";
+    }
+    return "?";
+}
+
 ColourPlan plan_far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
                                  const PsfParams& params) {
     const Colouring c = colouring_of(aperture, grid, reference_nm, params);
-    const std::vector<SpectralSample> samples = exact_samples(c, params);
+    const std::vector<SpectralSample> samples = samples_of(c, params);
     ColourPlan plan;
     plan.wavelengths = static_cast<int>(samples.size());
-    plan.middle = plan_far_field(aperture, grid_of(c, samples[samples.size() / 2]), {});
-    plan.cost_ms = plan.wavelengths * plan.middle.cost_ms;
+    const SpectralMethod method = method_for(params);
+    if (method == SpectralMethod::exact) {
+        plan.pattern = plan_far_field(aperture, grid_of(c, samples[samples.size() / 2]), {});
+        plan.cost_ms = plan.wavelengths * plan.pattern.cost_ms;
+        return plan;
+    }
+    const FrequencyGrid pattern = pattern_grid_for(c, scaled_colours(c, samples));
+    plan.pattern = plan_far_field(aperture, pattern, {});
+    plan.looked_up = std::int64_t{pattern.width} * pattern.height * (method == SpectralMethod::batch ? 5 : 1);
     return plan;
 }
 
@@ -154,20 +161,20 @@ Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& gri
                               const PsfParams& params, const Exec& exec,
                               const std::function<void(double)>& progress) {
     const Colouring c = colouring_of(aperture, grid, reference_nm, params);
+    const std::vector<SpectralSample> samples = samples_of(c, params);
     Image<Vec3f> sum(grid.width, grid.height);
-    if (params.method == SpectralMethod::batch) {
-        const auto samples = geometric_samples(params.light, 4 * batch_lookups);
-        if (!samples.empty()) {
-            add_batches(c, samples, sum, exec);
-            return sum;
-        }
+    const SpectralMethod method = method_for(params);
+    if (method == SpectralMethod::exact) {
+        add_exact(c, samples, sum, exec, progress);
+        return sum;
     }
-    if (params.method == SpectralMethod::exact) {
-        add_exact(c, exact_samples(c, params), sum, exec, progress);
-    } else {
-        const int count = params.wavelengths > 0 ? params.wavelengths : lookup_wavelengths;
-        add_lookups(c, spectral_samples(params.light, count), sum, exec);
-    }
+    const std::vector<ScaledColour> colours = scaled_colours(c, samples);
+    PowerImage pattern{pattern_grid_for(c, colours), {}};
+    pattern.power = far_field_power(aperture, pattern.grid, {}, exec);
+    if (method == SpectralMethod::batch)
+        add_colours_in_batches(pattern, grid, colours, sum, exec);
+    else
+        add_colours(pattern, grid, colours, sum, exec);
     return sum;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Which parts of a far field are bright enough to be worth computing.
 
-#include "optics/separable_field.h"
+#include "optics/field/separable_field.h"
 
 namespace obscura {
 

@@ -12,11 +12,10 @@
 
 #include <cmath>
 
-#include "optics/far_field_costs.h"
 #include "optics/far_field_cull.h"
 #include "optics/far_field_methods.h"
-#include "optics/field_rows.h"
-#include "optics/separable_field.h"
+#include "optics/field/field_rows.h"
+#include "optics/field/separable_field.h"
 
 namespace obscura {
 
@@ -38,11 +37,6 @@ void far_field_edges(ImageView<const float> mask, const FrequencyGrid& grid, dou
     SeparableParams params;
     params.blocks = &blocks;
     separable_field(terms, grid, params, target, exec);
-}
-
-double far_field_edges_cost_ns(ImageView<const float> mask, const FrequencyGrid& grid) {
-    return separable_cost_ns(separable_terms(mask), grid) +
-           1.0 * static_cast<double>(mask.width) * mask.height;
 }
 
 }  // namespace obscura

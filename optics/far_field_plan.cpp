@@ -14,11 +14,10 @@
 
 #include "core/error.h"
 #include "optics/far_field_chirp.h"
-#include "optics/far_field_costs.h"
 #include "optics/far_field_methods.h"
 #include "optics/far_field_plan.h"
-#include "optics/natural_grid.h"
-#include "optics/row_runs.h"
+#include "optics/field/natural_grid.h"
+#include "optics/field/row_runs.h"
 
 namespace obscura {
 namespace {

@@ -2,7 +2,7 @@
 // The planner, given what the methods need as well: one search for runs serves both.
 
 #include "optics/far_field.h"
-#include "optics/row_runs.h"
+#include "optics/field/row_runs.h"
 
 namespace obscura {
 

@@ -23,10 +23,9 @@
 
 #include "core/buffer.h"
 #include "core/parallel.h"
-#include "optics/far_field_costs.h"
 #include "optics/far_field_methods.h"
-#include "optics/field_rows.h"
-#include "optics/separable_terms.h"
+#include "optics/field/field_rows.h"
+#include "optics/field/separable_terms.h"
 
 namespace obscura {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "optics/phasor.h"
+#include "optics/field/phasor.h"
 
 namespace obscura {
 

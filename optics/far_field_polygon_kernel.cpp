@@ -3,8 +3,8 @@
 
 #include "optics/far_field_polygon.h"
 
-#include "optics/compensated_sum.h"
-#include "optics/phasor_lanes.h"
+#include "optics/field/compensated_sum.h"
+#include "optics/field/phasor_lanes.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "optics/compensated_sum.h"
 #include "optics/far_field_polygon.h"
-#include "optics/phasor_scalar.h"
+#include "optics/field/compensated_sum.h"
+#include "optics/field/phasor_scalar.h"
 
 namespace obscura::ref {
 namespace {

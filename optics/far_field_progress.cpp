@@ -18,8 +18,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "optics/far_field_costs.h"
-#include "optics/separable_field.h"
+#include "optics/field/separable_field.h"
 
 namespace obscura {
 namespace {
@@ -129,11 +128,12 @@ void decide(const FarFieldProgress& progress, double bound, double area, Progres
     }
 }
 
-}  // namespace
-
-double far_field_update_cost_ns(const SeparableTerms& difference, const FrequencyGrid& grid) {
+/// Of adding the terms of a difference to a field, nanoseconds on one thread.
+double update_cost_ns(const SeparableTerms& difference, const FrequencyGrid& grid) {
     return separable_cost_ns(difference, grid) + 0.5 * grid.width * grid.height;
 }
+
+}  // namespace
 
 ProgressReport update_far_field(FarFieldProgress& progress, ImageView<const float> mask, const Exec& exec) {
     const double area = open_area(mask);
@@ -152,7 +152,7 @@ ProgressReport update_far_field(FarFieldProgress& progress, ImageView<const floa
             progress.error_bound + fresh_error * absolute_area(difference) + rounding_error * area;
         report.terms = terms.count();
         report.refresh_ms = progress.refresh_ms;
-        report.update_ms = far_field_update_cost_ns(terms, grid) * 1e-6;
+        report.update_ms = update_cost_ns(terms, grid) * 1e-6;
         decide(progress, bound, area, report);
         if (!report.refreshed && terms.count() > 0) {
             SeparableParams params;

@@ -7,7 +7,7 @@
 
 #include "core/isa.h"
 #include "optics/far_field.h"
-#include "optics/field.h"
+#include "optics/field/field.h"
 
 namespace obscura {
 

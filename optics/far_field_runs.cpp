@@ -22,8 +22,8 @@
 #include "filters/fft.h"
 #include "optics/far_field_chirp.h"
 #include "optics/far_field_methods.h"
+#include "optics/field/row_runs.h"
 #include "optics/natural_transform.h"
-#include "optics/row_runs.h"
 #include "optics/run_sums.h"
 
 namespace obscura {

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "filters/fft.h"
-#include "optics/field.h"
-#include "optics/natural_grid.h"
-#include "optics/row_runs.h"
+#include "optics/far_field.h"
+#include "optics/field/field.h"
+#include "optics/field/natural_grid.h"
+#include "optics/field/row_runs.h"
 #include "optics/spectrum_columns.h"
 
 namespace obscura {

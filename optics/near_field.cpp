@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "optics/near_field_methods.h"
+#include "optics/thesis/near_field.h"
 
 namespace obscura {
 namespace {
@@ -59,12 +60,6 @@ NearFieldCase case_of(ImageView<const float> mask, const PlaneGrid& grid, double
 
 }  // namespace
 
-PlaneGrid centred_plane(int size, double extent_texels) {
-    CHECK(size > 0 && extent_texels > 0);
-    const double step = extent_texels / size;
-    return {size, size, -0.5 * extent_texels + 0.5 * step, -0.5 * extent_texels + 0.5 * step, step};
-}
-
 const char* near_field_method_name(NearFieldMethod method) {
     switch (method) {
         case NearFieldMethod::automatic:
@@ -105,23 +100,6 @@ NearFieldCase near_field_case(const Aperture& aperture, const PlaneGrid& grid, c
     to.first_x = (grid.first_x + 0.5 * aperture.mask.width) / side - 0.5 * coarse.mask.width;
     to.first_y = (grid.first_y + 0.5 * aperture.mask.height) / side - 0.5 * coarse.mask.height;
     return case_of(coarse.mask.view(), to, turns * side * side);
-}
-
-namespace {
-
-/// True when pixels mirror onto pixels.
-bool is_symmetric(const PlaneAxis& axis) {
-    const double extent = (axis.pixels - 1) * axis.step;
-    return std::fabs(2 * axis.first + extent) <= 1e-13 * (extent + axis.texels);
-}
-
-}  // namespace
-
-PlanePart part_to_compute(const NearFieldCase& c) {
-    PlanePart part{c.grid.width, c.grid.height};
-    if (c.symmetry.left_right && is_symmetric(c.horizontal())) part.columns = (part.columns + 1) / 2;
-    if (c.symmetry.top_bottom && is_symmetric(c.vertical())) part.rows = (part.rows + 1) / 2;
-    return part;
 }
 
 namespace {

@@ -12,20 +12,11 @@
 #include <string>
 
 #include "core/isa.h"
-#include "optics/aperture.h"
-#include "optics/field.h"
+#include "optics/field/aperture.h"
+#include "optics/field/field.h"
+#include "optics/field/plane_grid.h"
 
 namespace obscura {
-
-/// Positions of pixel centres, in texels from the mask's centre: first_x + x step, first_y + y step.
-struct PlaneGrid {
-    int width = 0, height = 0;
-    double first_x = 0, first_y = 0;
-    double step = 0;
-};
-
-/// `size` pixels over a square of `extent_texels`, centred on the mask.
-PlaneGrid centred_plane(int size, double extent_texels);
 
 enum class NearFieldMethod {
     automatic,  ///< edges, hybrid or fft: quads are never fewer products than distinct columns by much

@@ -5,9 +5,9 @@
 
 #include "core/buffer.h"
 #include "filters/fft.h"
-#include "optics/fresnel.h"
-#include "optics/near_field_axis.h"
-#include "optics/near_field_kernels.h"
+#include "optics/column_products.h"
+#include "optics/field/fresnel.h"
+#include "optics/field/near_field_axis.h"
 
 namespace obscura {
 

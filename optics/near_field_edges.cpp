@@ -7,7 +7,8 @@
 #include <algorithm>
 
 #include "core/image.h"
-#include "optics/near_field_separable.h"
+#include "optics/field/near_field_separable.h"
+#include "optics/near_field_methods.h"
 
 namespace obscura {
 namespace {

@@ -8,11 +8,13 @@
 // shrinks to three one-dimensional transforms of half as many pixels at two pixels per texel.
 
 #include "core/parallel.h"
-#include "optics/mask_changes.h"
+#include "optics/field/line_sums.h"
+#include "optics/field/mask_changes.h"
 #include "optics/near_field_convolve.h"
 #include "optics/near_field_methods.h"
 
 namespace obscura {
+
 void near_field_hybrid(const NearFieldCase& c, const FieldTarget& target, const Exec& exec) {
     const LineChanges& changes = c.changes;
     const EdgeTable table(c.horizontal(), c.turns, distinct_edges(changes, c.mask.width), exec);

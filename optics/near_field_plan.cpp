@@ -11,7 +11,7 @@
 
 #include "core/error.h"
 #include "core/num.h"
-#include "optics/mask_changes.h"
+#include "optics/field/mask_changes.h"
 #include "optics/near_field_convolve.h"
 #include "optics/near_field_methods.h"
 

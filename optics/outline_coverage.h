@@ -2,7 +2,7 @@
 // The area of every texel that an outline leaves open.
 
 #include "core/image.h"
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 
 namespace obscura {
 

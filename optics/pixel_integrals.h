@@ -29,9 +29,8 @@ struct PixelLight {
 
 /// Pixels are the squares of width pixel around (x - radius_px) pixel, (y - radius_px) pixel, 2 radius_px + 1
 /// to a side. Returns for each the sum over the lights of colour times the integral of the power over its
-/// square. The power is sampled at whole multiples of
-/// `cell` and taken as constant over the square cell around each sample: cell <= 1 / (2 extent of the
-/// aperture) loses nothing in squares of several cells.
+/// square. The power is sampled at whole multiples of `cell` and taken as constant over the square cell
+/// around each sample: cell <= 1 / (2 extent of the aperture) loses nothing in squares of several cells.
 Image<Vec3d> integrate_over_pixels(const PowerSource& power, double cell, int radius_px,
                                    const std::vector<PixelLight>& lights, const Exec& exec);
 

@@ -1,6 +1,6 @@
 // Point spread functions at the true size of a sensor's pixels.
 //
-// L. Scandolo: thesis, 2019, section 3.4.2 (equations 3.15 to 3.17) adds wavelengths at points of the
+// L. Scandolo: thesis, 2019, section 3.4.3 (equations 3.15 to 3.17) adds wavelengths at points of the
 // pattern. Pixels are seldom points: at f/8 one of 18.75 um is four fringes of the aperture's diameter wide,
 // and a point in it says nothing of its light. So pixels integrate here, exactly, by summed-area tables.
 
@@ -10,10 +10,10 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "core/num.h"
 #include "core/parallel.h"
 #include "optics/aperture_extent.h"
-#include "optics/far_field_costs.h"
+#include "optics/far_field_methods.h"
+#include "optics/field/sinc.h"
 #include "optics/outline_coverage.h"
 #include "optics/pixel_integrals.h"
 
@@ -28,12 +28,14 @@ constexpr double faithful_cycles_per_texel = 0.25;
 constexpr double shortest_of_weight_nm = 440;  ///< below, little is seen
 
 void check_params(const PsfParams& p) {
-    if (!(p.focal_length_m > 0)) throw UsageError("focal length must be positive");
-    if (!(p.f_number > 0 && p.f_number < 1e4)) throw UsageError("f-number must be positive");
-    if (!(p.pixel_m > 0 && p.pixel_m < 1)) throw UsageError("pixel size must be positive");
-    if (p.radius_px < 0 || p.radius_px > 4096) throw UsageError("kernel radius must be 0 to 4096 pixels");
-    if (p.wavelengths < 0 || p.wavelengths > 100000) throw UsageError("wavelength count must be 0 to 100000");
-    if (!(p.tolerance >= 1e-4 && p.tolerance <= 0.5)) throw UsageError("tolerance must be 0.0001 to 0.5");
+    const auto require = [](bool good, const char* message) {
+        if (!good) throw InputError("", message);
+    };
+    require(p.focal_length_m > 0, "focal length must be positive");
+    require(p.f_number > 0 && p.f_number < 1e4, "f-number must be positive");
+    require(p.pixel_m > 0 && p.pixel_m < 1, "pixel size must be positive");
+    require(p.radius_px >= 0 && p.radius_px <= 4096, "kernel radius must be 0 to 4096 pixels");
+    check_sampling(p.wavelengths, p.tolerance);
 }
 
 /// Width of a pixel in cycles per aperture diameter.
@@ -92,8 +94,7 @@ Pupil pupil_for(const Aperture& aperture, double cycles_per_texel) {
 /// What coverage has dimmed at a frequency, one axis's factor: the mean of a shape over each texel, shown as
 /// a square again, has the shape's amplitude times sinc(u)^2, up to half a cycle per texel.
 double coverage_gain(double frequency) {
-    const double x = num::pi * std::min(std::fabs(frequency), 0.5);
-    const double sinc = x == 0 ? 1 : num::sin(x) / x;
+    const double sinc = sinc_in_double(std::min(std::fabs(frequency), 0.5));
     return 1 / (sinc * sinc * sinc * sinc);
 }
 

@@ -8,8 +8,8 @@
 #include "core/image.h"
 #include "core/isa.h"
 #include "core/vec.h"
-#include "optics/aperture.h"
 #include "optics/far_field.h"
+#include "optics/field/aperture.h"
 #include "optics/spectrum.h"
 
 namespace obscura {
@@ -17,9 +17,10 @@ namespace obscura {
 /// How far_field_colour() adds wavelengths up (thesis, equations 3.16 and 3.17).
 enum class SpectralMethod {
     exact,   ///< every wavelength's pattern is computed on its own grid
-    lookup,  ///< the paper's full mode: one pattern, looked up at 60 scales
-    batch,   ///< the paper's batch mode: 4 scales gathered first, then 15 lookups of four
+    lookup,  ///< "full60", the paper's full mode: one pattern, looked up at 60 scales
+    batch,   ///< "batch4", the paper's batch mode: 4 scales gathered first, then 15 lookups of four
 };
+const char* spectral_method_name(SpectralMethod method);
 
 struct PsfParams {
     double focal_length_m = 0.05;
@@ -61,7 +62,7 @@ struct Psf {
 
 /// An outline, where there is one, must be that of the mask. The mask spans the entrance pupil's diameter,
 /// focal_length / f_number, with its width. A pixel gathers the light on its whole square, of all wavelengths
-/// (see optics/pixel_integrals.h). Throws UsageError for parameters out of range, LimitError for far too many
+/// (see optics/pixel_integrals.h). Throws InputError for parameters out of range, LimitError for far too many
 /// frequencies, InputError for an aperture that lets nothing through.
 /// `progress` hears in this thread, many times when there is much to do, which share is done; what it throws
 /// ends the work.
@@ -79,11 +80,14 @@ Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& gri
                               const PsfParams& params, const Exec& exec,
                               const std::function<void(double)>& progress = {});
 
-/// What that does by SpectralMethod::exact.
+/// What that would do; throws as it does.
 struct ColourPlan {
     int wavelengths = 0;
-    FarFieldReport middle;  ///< plan of the wavelength in the middle
-    double cost_ms = 0;     ///< of all, as if they were all like that; estimate for one thread
+    FarFieldReport
+        pattern;         ///< plan of the wavelength in the middle, or of the one pattern that is looked up
+    double cost_ms = 0;  ///< exact: of all, as if they were all like that, estimate for one thread; else 0
+    std::int64_t looked_up =
+        0;  ///< frequencies of that one pattern, held while it is, with its scaled copies
 };
 ColourPlan plan_far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
                                  const PsfParams& params);

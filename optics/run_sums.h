@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "optics/run_table.h"
+#include "optics/field/run_table.h"
 
 namespace obscura {
 

@@ -293,6 +293,11 @@ SpectralRate spectral_rate(const LightSpectrum& light, double cycles_per_scale, 
     return rate;
 }
 
+void check_sampling(int wavelengths, double tolerance) {
+    if (wavelengths < 0 || wavelengths > 100000) throw InputError("", "wavelength count must be 0 to 100000");
+    if (!(tolerance >= 1e-4 && tolerance <= 0.5)) throw InputError("", "tolerance must be 0.0001 to 0.5");
+}
+
 Vec3d srgb_from_xyz(Vec3d xyz) {
     return product(to_srgb, xyz);
 }

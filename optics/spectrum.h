@@ -66,6 +66,10 @@ struct SpectralRate {
 };
 SpectralRate spectral_rate(const LightSpectrum& light, double cycles_per_scale, double tolerance);
 
+/// Throws InputError when a number of wavelengths (0: to be chosen) or a tolerance for that choice makes no
+/// sense.
+void check_sampling(int wavelengths, double tolerance);
+
 /// XYZ (Y = 1 is white) to linear sRGB and back (IEC 61966-2-1, white D65).
 Vec3d srgb_from_xyz(Vec3d xyz);
 Vec3d xyz_from_srgb(Vec3d rgb);

@@ -7,7 +7,7 @@
 #include "core/isa.h"
 #include "filters/fft.h"
 #include "optics/column_store.h"
-#include "optics/natural_grid.h"
+#include "optics/field/natural_grid.h"
 
 namespace obscura {
 

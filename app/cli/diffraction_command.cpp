@@ -20,7 +20,7 @@
 #include "core/stopwatch.h"
 #include "optics/aperture_dirt.h"
 #include "optics/aperture_extent.h"
-#include "optics/near_field_scaled.h"
+#include "optics/near_field_colour.h"
 #include "optics/psf.h"
 
 namespace obscura {
@@ -131,7 +131,7 @@ void plan_colours(Job& job, const DiffractionOptions& options) {
     if (options.spectrum && !options.near_m) {
         const ColourPlan plan =
             plan_far_field_colour(job.aperture, job.far_grid, reference_nm, colour_params(options));
-        job.far_plan = plan.middle;
+        job.far_plan = plan.pattern;
         job.wavelengths = plan.wavelengths;
         job.total_ms = plan.cost_ms;
         return;

@@ -12,7 +12,7 @@
 #include "core/isa.h"
 #include "optics/aperture_shapes.h"
 #include "optics/far_field.h"
-#include "optics/field.h"
+#include "optics/field/field.h"
 #include "optics/lens_dirt.h"
 #include "optics/near_field.h"
 #include "optics/pattern_view.h"

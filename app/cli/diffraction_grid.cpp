@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "optics/aperture_extent.h"
-#include "optics/natural_grid.h"
-#include "optics/near_field_axis.h"
+#include "optics/field/natural_grid.h"
+#include "optics/field/near_field_axis.h"
 
 namespace obscura {
 namespace {

@@ -18,7 +18,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "optics/aperture_extent.h"
-#include "optics/near_field_scaled.h"
+#include "optics/near_field_colour.h"
 #include "raster/camera_rays.h"
 
 namespace obscura {

@@ -7,7 +7,7 @@
 
 #include "app/frame/frame.h"
 #include "app/scene/scene.h"
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 
 namespace obscura {
 

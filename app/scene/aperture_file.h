@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/image_io.h"
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 
 namespace obscura {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "optics/aperture.h"
+#include "optics/field/aperture.h"
 
 namespace obscura {
 

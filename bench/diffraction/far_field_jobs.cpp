@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "optics/far_field_costs.h"
 #include "optics/far_field_methods.h"
 
 namespace obscura {

@@ -5,7 +5,7 @@
 
 #include "bench/diffraction/peer_pixels.h"
 #include "core/parallel.h"
-#include "optics/fresnel.h"
+#include "optics/field/fresnel.h"
 
 namespace obscura {
 namespace {

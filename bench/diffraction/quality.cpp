@@ -9,7 +9,7 @@
 #include "filters/metrics.h"
 #include "optics/far_field.h"
 #include "optics/near_field.h"
-#include "optics/quads.h"
+#include "optics/field/quads.h"
 
 namespace obscura {
 namespace {

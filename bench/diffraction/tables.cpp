@@ -8,8 +8,8 @@
 #include "bench/diffraction/diffraction_bench.h"
 #include "optics/aperture_shapes.h"
 #include "optics/far_field.h"
-#include "optics/quads.h"
-#include "optics/spectral_lookup.h"
+#include "optics/field/quads.h"
+#include "optics/thesis/spectral_lookup.h"
 #include "optics/spectrum.h"
 
 namespace obscura {

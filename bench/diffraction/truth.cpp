@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "core/parallel.h"
-#include "optics/fresnel.h"
+#include "optics/field/fresnel.h"
 
 namespace obscura {
 namespace {

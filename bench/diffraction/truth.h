@@ -7,7 +7,7 @@
 #include "core/image.h"
 #include "core/isa.h"
 #include "optics/far_field.h"
-#include "optics/field.h"
+#include "optics/field/field.h"
 #include "optics/near_field.h"
 
 namespace obscura {

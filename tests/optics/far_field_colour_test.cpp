@@ -183,8 +183,8 @@ TEST(FarFieldColour, ThreadsAndInstructionSetsDoNotShow) {
 TEST(FarFieldColour, RefusesWhatHasNoPattern) {
     Aperture closed = box_of(32, 16);
     const FrequencyGrid grid = centred_grid(8, 8, 1.0 / 64);
-    EXPECT_THROW(far_field_colour(closed, grid, 0.55, params_of(SpectralMethod::exact), {}), UsageError);
-    EXPECT_THROW(far_field_colour(closed, grid, 550, params_of(SpectralMethod::exact, -1), {}), UsageError);
+    EXPECT_THROW(far_field_colour(closed, grid, 0.55, params_of(SpectralMethod::exact), {}), InputError);
+    EXPECT_THROW(far_field_colour(closed, grid, 550, params_of(SpectralMethod::exact, -1), {}), InputError);
     closed.mask = Image<float>(32, 32);
     EXPECT_THROW(far_field_colour(closed, grid, 550, params_of(SpectralMethod::exact), {}), InputError);
 }

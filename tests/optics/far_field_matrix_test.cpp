@@ -5,8 +5,9 @@
 #include <cstring>
 
 #include "optics/far_field_methods.h"
-#include "optics/natural_grid.h"
-#include "optics/separable_terms.h"
+#include "optics/field/natural_grid.h"
+#include "optics/field/separable_terms.h"
+#include "optics/thesis/far_field.h"
 #include "tests/optics/far_field_reference.h"
 
 namespace obscura {

@@ -10,6 +10,7 @@
 
 #include "core/image_io.h"
 #include "optics/far_field_methods.h"
+#include "optics/thesis/far_field.h"
 #include "tests/optics/far_field_reference.h"
 
 namespace obscura {

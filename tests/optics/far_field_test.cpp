@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "optics/natural_grid.h"
+#include "optics/field/natural_grid.h"
 #include "optics/natural_transform.h"
 #include "tests/optics/far_field_oracle.h"
 

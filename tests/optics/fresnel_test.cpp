@@ -1,6 +1,6 @@
 // Fresnel integrals against quadrature in long double, limits, and the conditioning of chirp integrals.
 
-#include "optics/fresnel.h"
+#include "optics/field/fresnel.h"
 
 #include <gtest/gtest.h>
 

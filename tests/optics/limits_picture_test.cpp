@@ -9,7 +9,7 @@
 #include "core/file_output.h"
 #include "core/image_io.h"
 #include "lessons/drawing/figure.h"
-#include "optics/near_field_scaled.h"
+#include "optics/near_field_colour.h"
 #include "optics/psf.h"
 #include "tests/optics/cases.h"
 #include "tests/optics/near_field_oracle.h"

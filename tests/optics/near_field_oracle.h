@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "optics/aperture.h"
-#include "optics/fresnel.h"
+#include "optics/field/aperture.h"
+#include "optics/field/fresnel.h"
 #include "optics/near_field.h"
 
 namespace obscura::near_field_oracle {

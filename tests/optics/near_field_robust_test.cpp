@@ -9,7 +9,8 @@
 
 #include "core/error.h"
 #include "optics/near_field.h"
-#include "optics/near_field_scaled.h"
+#include "optics/near_field_colour.h"
+#include "optics/thesis/scaled_intensity.h"
 #include "tests/optics/near_field_oracle.h"
 
 namespace obscura {

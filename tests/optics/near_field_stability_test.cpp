@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "optics/near_field_scaled.h"
+#include "optics/near_field_colour.h"
 #include "tests/optics/cases.h"
 #include "tests/optics/near_field_oracle.h"
 

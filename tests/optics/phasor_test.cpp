@@ -1,6 +1,6 @@
 // Phasors and interval transforms: against libm in double, and ref = kernels bit for bit.
 
-#include "optics/phasor.h"
+#include "optics/field/phasor.h"
 
 #include <gtest/gtest.h>
 

@@ -293,9 +293,9 @@ TEST(Psf, ThreadsAndInstructionSetsDoNotShow) {
 
 TEST(Psf, RefusesWhatNoLensHas) {
     const Aperture hept = aperture_of(ApertureKind::iris, 64);
-    EXPECT_THROW(far_field_psf(hept, lens(0, 6, 8), {}), UsageError);
-    EXPECT_THROW(far_field_psf(hept, lens(8, -1, 8), {}), UsageError);
-    EXPECT_THROW(far_field_psf(hept, lens(8, 6, -1), {}), UsageError);
+    EXPECT_THROW(far_field_psf(hept, lens(0, 6, 8), {}), InputError);
+    EXPECT_THROW(far_field_psf(hept, lens(8, -1, 8), {}), InputError);
+    EXPECT_THROW(far_field_psf(hept, lens(8, 6, -1), {}), InputError);
     Aperture closed = hept;
     closed.mask = Image<float>(64, 64);
     EXPECT_THROW(far_field_psf(closed, lens(8, 6, 8), {}), InputError);

@@ -1,6 +1,6 @@
 // Quads: every mask comes back bit for bit, rules are the paper's, counts are those of its Table 3.1.
 
-#include "optics/quads.h"
+#include "optics/field/quads.h"
 
 #include <gtest/gtest.h>
 

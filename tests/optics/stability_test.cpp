@@ -7,7 +7,7 @@
 
 #include "optics/far_field_progress.h"
 #include "optics/psf.h"
-#include "optics/quads.h"
+#include "optics/field/quads.h"
 #include "tests/optics/cases.h"
 #include "tests/optics/far_field_reference.h"
 
