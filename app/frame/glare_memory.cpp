@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/frame/hidden_lamps.h"
 #include "app/frame/lens.h"
 #include "app/frame/source_kernels.h"
 

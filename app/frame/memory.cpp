@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "app/frame/glare_memory.h"
+#include "app/frame/lamp_pixels.h"
 #include "app/frame/needed_texels.h"
-#include "app/frame/source_kernels.h"
 #include "app/frame/tile.h"
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"

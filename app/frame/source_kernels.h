@@ -25,12 +25,6 @@ constexpr std::size_t most_kernels = 65536;
 /// Its index. Throws LimitError when there are most_kernels already.
 std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to);
 
-/// Objects of the scene whose own light clips: only they have patterns of their own when partly hidden.
-std::int64_t lamp_count(const Scene& scene);
-
-/// Held of each bright pixel of a lamp while kernels are chosen, lists growing included.
-constexpr std::int64_t bytes_per_lamp_pixel = 160;
-
 /// True when the scene asks for such kernels; they need the frame's depth (and object) channels.
 bool wants_source_kernels(const OpticsSettings& optics);
 
@@ -38,11 +32,5 @@ bool wants_source_kernels(const OpticsSettings& optics);
 /// `open`: the kernel of the lens in focus, each channel of sum 1.
 SourceKernels source_kernels(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
                              const Image<Vec3f>& open, const Exec& exec);
-
-/// The near field of the aperture for a point of light out of focus: a kernel of side 2 radius + 1, channels
-/// of sum 1. `vergence_per_m`: 1 / distance - 1 / focus distance; positive for points nearer than the focus,
-/// which show the aperture upside down.
-Image<Vec3f> defocus_kernel(const Aperture& aperture, const OpticsSettings& optics,
-                            const RenderSettings& render, double vergence_per_m, const Exec& exec);
 
 }  // namespace obscura

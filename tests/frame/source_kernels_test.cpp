@@ -9,6 +9,7 @@
 #include <numeric>
 #include <string>
 
+#include "app/frame/defocus.h"
 #include "app/frame/lens.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/visible_pupil.h"
