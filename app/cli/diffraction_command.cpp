@@ -20,8 +20,6 @@
 #include "core/stopwatch.h"
 #include "optics/aperture_dirt.h"
 #include "optics/aperture_extent.h"
-#include "optics/near_field_colour.h"
-#include "optics/psf.h"
 
 namespace obscura {
 namespace {
@@ -54,8 +52,9 @@ std::int64_t pattern_bytes(const DiffractionOptions& options, std::int64_t texel
     return pixels * (numbers + 3 * 3 + 12) + texels * bytes_per_texel;
 }
 
-void check_limits(const DiffractionOptions& options, std::int64_t texels) {
-    const std::int64_t bytes = pattern_bytes(options, texels);
+/// `looked_up`: numbers of the patterns that a spectrum's colours are looked up in.
+void check_limits(const DiffractionOptions& options, std::int64_t texels, std::int64_t looked_up = 0) {
+    const std::int64_t bytes = pattern_bytes(options, texels) + 4 * looked_up;
     if (bytes <= options.memory_mib << 20) return;
     throw LimitError(fmt::format(
         "a pattern of {0} x {0} pixels behind a mask of {1:.4g} million texels needs about {2:.0f} MiB, more "
@@ -119,6 +118,7 @@ PsfParams colour_params(const DiffractionOptions& options) {
     PsfParams params;
     params.light = *options.spectrum;
     params.wavelengths = options.wavelengths;
+    params.method = options.far_colour;
     return params;
 }
 
@@ -134,11 +134,14 @@ void plan_colours(Job& job, const DiffractionOptions& options) {
         job.far_plan = plan.pattern;
         job.wavelengths = plan.wavelengths;
         job.total_ms = plan.cost_ms;
+        const Image<float>& mask = job.aperture.mask;
+        check_limits(options, std::int64_t{mask.width} * mask.height, plan.looked_up);
         return;
     }
     if (options.spectrum)
         job.wavelengths = static_cast<int>(spectral_samples(*options.spectrum, near_count(options)).size());
-    job.total_ms = job.wavelengths * (options.near_m ? job.near_plan.cost_ms : job.far_plan.cost_ms);
+    const int fields = options.near_colour == NearFieldColour::scaled ? 1 : job.wavelengths;
+    job.total_ms = fields * (options.near_m ? job.near_plan.cost_ms : job.far_plan.cost_ms);
 }
 
 Job plan_job(const DiffractionOptions& options) {
@@ -193,6 +196,8 @@ std::string pattern_text(const DiffractionOptions& options, const Job& job) {
     out += fmt::format("method    {}\n", reason.empty() ? method : reason);
     if (!options.spectrum) return out;
     out += fmt::format("light     {} wavelengths", job.wavelengths);
+    if (options.far_colour != SpectralMethod::exact) out += ", looked up in one pattern";
+    if (options.near_colour != NearFieldColour::exact) out += ", scaled from one";
     if (job.total_ms > 0) out += fmt::format(", together about {:.3g} s on one thread", 1e-3 * job.total_ms);
     return out + "\n";
 }
@@ -242,9 +247,8 @@ Pattern near_pattern(const DiffractionOptions& options, Job& job, const Hear& pr
     }
     // Every wavelength of the light has its own near field; their colours add up.
     if (options.spectrum) {
-        pattern.colour =
-            near_field_colour(job.aperture, job.plane, job.near, *options.spectrum, near_count(options),
-                              NearFieldColour::exact, options.exec, progress);
+        pattern.colour = near_field_colour(job.aperture, job.plane, job.near, *options.spectrum,
+                                           near_count(options), options.near_colour, options.exec, progress);
     }
     return pattern;
 }

@@ -15,7 +15,9 @@
 #include "optics/field/field.h"
 #include "optics/lens_dirt.h"
 #include "optics/near_field.h"
+#include "optics/near_field_colour.h"
 #include "optics/pattern_view.h"
+#include "optics/psf.h"
 #include "optics/spectrum.h"
 
 namespace obscura {
@@ -42,6 +44,8 @@ struct DiffractionOptions {
     std::optional<LightSpectrum> spectrum;
     double wavelength_nm = 550;
     int wavelengths = 0;  ///< of a spectrum; 0: the program chooses
+    SpectralMethod far_colour = SpectralMethod::exact;
+    NearFieldColour near_colour = NearFieldColour::exact;
 
     int size_px = 1024;
     double zoom = 0;  ///< 0: far, 56 to 112 fringes on either side; near, 1

@@ -32,6 +32,9 @@ constexpr std::array far_methods = {
 constexpr std::array near_methods = {NearFieldMethod::automatic, NearFieldMethod::direct,
                                      NearFieldMethod::two_pass,  NearFieldMethod::edges,
                                      NearFieldMethod::hybrid,    NearFieldMethod::fft};
+constexpr std::array far_spectrum_modes = {SpectralMethod::exact, SpectralMethod::lookup,
+                                           SpectralMethod::batch};
+constexpr std::array near_spectrum_modes = {NearFieldColour::exact, NearFieldColour::scaled};
 constexpr std::array shape_kinds = {ApertureKind::iris,    ApertureKind::circle,  ApertureKind::box,
                                     ApertureKind::whirl,   ApertureKind::annulus, ApertureKind::slit,
                                     ApertureKind::grating, ApertureKind::hexagons};
@@ -97,7 +100,7 @@ Vec2d centre_value(const std::string& text) {
 struct Texts {
     std::string aperture, near, wavelength, spectrum, centre = "0,0", method = "automatic", stats,
                                                       isa = "auto";
-    std::string diameter, pitch, occluder = "none";
+    std::string diameter, pitch, occluder = "none", spectrum_mode;
     bool far = false, log = false, linear = false, overwrite = false;
     double decades = 0;
     std::int64_t mask = 1024, size = 1024, finest = 0, blades = 7, lines = 16, slits = 1, vanes = 4,
@@ -192,6 +195,11 @@ void add_pattern_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
                "none");
     flags.whole("--wavelengths", "N", t.wavelengths, 1, 4096, "Wavelengths of a spectrum.",
                 "as many as the picture needs");
+    flags.text(
+        "--spectrum-mode", "MODE", t.spectrum_mode,
+        "far: exact, full60 (one pattern, looked up at 60 scales) or batch4 (at 15, four at a time); near: "
+        "exact or scaled (from one wavelength's).",
+        "exact, every wavelength's own pattern");
     flags.whole("--size", "N", t.size, 1, 1048576, "Pixels a side.", "1024");
     flags.number("--zoom", "X", options.zoom, 1e-3, 1e6,
                  "1: far, all frequencies up to half a cycle per texel; near, the longer side of the mask.",
@@ -272,6 +280,21 @@ void set_light(const Texts& t, DiffractionOptions& options) {
     options.wavelengths = static_cast<int>(t.wavelengths);
 }
 
+void set_spectrum_mode(const Texts& t, DiffractionOptions& options) {
+    if (t.spectrum_mode.empty()) return;
+    if (t.spectrum.empty()) throw UsageError("--spectrum-mode needs --spectrum");
+    if (options.near_m) {
+        options.near_colour =
+            named_value("--spectrum-mode", t.spectrum_mode, near_spectrum_modes, near_field_colour_name);
+        return;
+    }
+    options.far_colour =
+        named_value("--spectrum-mode", t.spectrum_mode, far_spectrum_modes, spectral_method_name);
+    if (options.far_colour != SpectralMethod::exact && t.wavelengths > 0)
+        throw UsageError(
+            fmt::format("--wavelengths is of --spectrum-mode exact, not of {}", t.spectrum_mode));
+}
+
 void set_field(const Texts& t, DiffractionOptions& options) {
     if (!t.near.empty()) {
         if (t.far) throw UsageError("give either --far or --near, not both");
@@ -334,6 +357,7 @@ int run_diffraction(const Arguments& arguments) {
     set_width(t, options);
     set_light(t, options);
     set_field(t, options);
+    set_spectrum_mode(t, options);
     if (options.outputs.empty()) options.outputs.emplace_back("diffraction.png");
     options.existing = t.overwrite ? Existing::replace : Existing::refuse;
     options.stats_json = t.stats;

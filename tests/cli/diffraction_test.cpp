@@ -169,6 +169,39 @@ TEST(DiffractionCommand, ColoursRunFromBlueInsideToRedOutside) {
     EXPECT_GT(outer.z + outer.x, outer.y * 1.2f) << "where green has its zero, purple is left";
 }
 
+/// Mean difference of two pictures, as a share of the first one's mean.
+double difference_of(const Image<Vec3f>& a, const Image<Vec3f>& b) {
+    double sum = 0, difference = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+        sum += std::fabs(static_cast<double>(a.pixels[i].y));
+        difference += std::fabs(static_cast<double>(a.pixels[i].y - b.pixels[i].y));
+    }
+    return difference / sum;
+}
+
+TEST(DiffractionCommand, SpectrumModesShowNearlyTheSame) {
+    const Folder folder;
+    const auto colours = [&](std::vector<std::string> flags) {
+        flags.insert(flags.begin(), {"diffraction", "iris", "--mask-size", "128", "--size", "64",
+                                     "--spectrum", "d65", "--overwrite", "-o", "c.pfm"});
+        const Outcome run = run_in(folder, flags);
+        EXPECT_EQ(run.code, 0) << run.err;
+        return colour_pfm(folder, "c.pfm");
+    };
+    const Image<Vec3f> exact = colours({}), named = colours({"--spectrum-mode", "exact"});
+    EXPECT_TRUE(exact == named) << "that is the default";
+    for (const char* mode : {"full60", "batch4"}) {
+        const double off = difference_of(exact, colours({"--spectrum-mode", mode}));
+        EXPECT_GT(off, 0) << mode;
+        EXPECT_LT(off, 0.05) << mode;
+    }
+    // The heuristic of near fields is right on the axis and in the open alone.
+    const Image<Vec3f> near = colours({"--near", "100"}),
+                       scaled = colours({"--near", "100", "--spectrum-mode", "scaled"});
+    EXPECT_GT(difference_of(near, scaled), 0);
+    EXPECT_LT(difference_of(near, scaled), 0.3);
+}
+
 TEST(DiffractionCommand, ThePlanNamesMethodAndReason) {
     const Folder folder;
     const Outcome run = run_in(folder, {"diffraction", "iris", "--plan", "--blades", "5", "--diameter-mm",
@@ -217,6 +250,12 @@ TEST(DiffractionCommand, ThePlanCountsWavelengths) {
     const std::string near = plan({"--spectrum", "equal", "--near", "5"});
     EXPECT_NE(near.find("light     40 wavelengths, together about "), std::string::npos) << near;
     EXPECT_EQ(plan({"--wavelength-nm", "500"}).find("light "), std::string::npos);
+    const std::string batches = plan({"--spectrum", "d65", "--spectrum-mode", "batch4"});
+    EXPECT_NE(batches.find("light     60 wavelengths, looked up in one pattern\n"), std::string::npos)
+        << batches;
+    const std::string scaled = plan({"--spectrum", "equal", "--near", "5", "--spectrum-mode", "scaled"});
+    EXPECT_NE(scaled.find("light     40 wavelengths, scaled from one, together about "), std::string::npos)
+        << scaled;
 }
 
 TEST(DiffractionCommand, NearFieldsFarAwayHintAtTheFarField) {
@@ -326,6 +365,20 @@ TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
         {{"iris", "--spectrum", "d65", "--amplitude"}, 2, "--amplitude is of one wavelength"},
         {{"iris", "--spectrum", "d65", "--method", "edges"}, 2, "--method and --cull are of one wavelength"},
         {{"iris", "--wavelengths", "9"}, 2, "--wavelengths needs --spectrum"},
+        {{"iris", "--spectrum-mode", "full60"}, 2, "--spectrum-mode needs --spectrum"},
+        {{"iris", "--spectrum", "d65", "--spectrum-mode", "full6"}, 2, "did you mean 'full60'?"},
+        {{"iris", "--spectrum", "d65", "--spectrum-mode", "scaled"},
+         2,
+         "--spectrum-mode: 'scaled' is not one of exact, full60, batch4"},
+        {{"iris", "--spectrum", "d65", "--near", "5", "--spectrum-mode", "batch4"},
+         2,
+         "--spectrum-mode: 'batch4' is not one of exact, scaled"},
+        {{"iris", "--spectrum", "d65", "--wavelengths", "9", "--spectrum-mode", "batch4"},
+         2,
+         "--wavelengths is of --spectrum-mode exact, not of batch4"},
+        {{"iris", "--spectrum", "d65", "--zoom", "1", "--spectrum-mode", "batch4", "--limit-memory", "200"},
+         4,
+         "more than --limit-memory 200"},
         {{"iris", "--pitch-um", "5x6"}, 2, "texels must be square"},
         {{"iris", "--pitch-um", "5", "--diameter-mm", "6"}, 2, "give either --diameter-mm or --pitch-um"},
         {{"iris", "--centre", "4"}, 2, "--centre: '4' is not like 12.5,-3"},
