@@ -5,8 +5,9 @@
 // And that the ends of runs and one-dimensional FFTs give the same for a fraction of the work. L. Scandolo,
 // "Compression and rendering with image-based representations", thesis, 2019, section 3.4.1, (3.9) to (3.14).
 //
-// Calls: optics/quads.h quads_of, optics/far_field_methods.h far_field_direct, far_field_runs,
-//        optics/row_runs.h row_runs, optics/separable_terms.h distinct_columns.
+// Calls: optics/field/quads.h quads_of, optics/thesis/far_field.h far_field_direct,
+// optics/far_field_methods.h
+//        far_field_runs, optics/field/row_runs.h row_runs, optics/field/separable_terms.h distinct_columns.
 
 #include <fmt/format.h>
 
@@ -142,8 +143,8 @@ Image<Rgb8> lesson_10_adding_quads(const Exec& exec) {
         "of a row needs its two ends only, and\nfrom row to row an FFT does at once what quads do one "
         "by one.\nBoth sums are the same function: above, they differ by less than 1e-6 F(0).");
     f.source_line(10,
-                  "optics/far_field_methods.h far_field_direct far_field_runs · optics/quads.h quads_of · "
-                  "optics/separable_terms.h distinct_columns");
+                  "optics/thesis/far_field.h far_field_direct · optics/far_field_methods.h far_field_runs · "
+                  "optics/field/quads.h quads_of · optics/field/separable_terms.h distinct_columns");
     return f.picture;
 }
 

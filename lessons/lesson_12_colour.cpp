@@ -5,7 +5,7 @@
 // pattern computed once may stand for all, if it is looked up finely enough: |F|^2 has twice the bandwidth of
 // F. L. Scandolo, thesis, 2019, section 3.4.3, equations 3.15 to 3.17.
 //
-// Calls: optics/psf.h far_field_colour, optics/spectrum.h spectral_samples, optics/spectral_lookup.h
+// Calls: optics/psf.h far_field_colour, optics/spectrum.h spectral_samples, optics/thesis/spectral_lookup.h
 //        add_scaled_power, optics/pattern_view.h view_colour.
 
 #include <algorithm>
@@ -142,7 +142,7 @@ Image<Rgb8> lesson_12_colour(const Exec& exec) {
                 "Or no lookups: every wavelength on its own grid.");
     f.source_line(12,
                   "optics/psf.h far_field_colour · optics/spectrum.h spectral_samples · "
-                  "optics/spectral_lookup.h add_scaled_power");
+                  "optics/thesis/spectral_lookup.h add_scaled_power");
     return f.picture;
 }
 

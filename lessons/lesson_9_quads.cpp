@@ -5,7 +5,7 @@
 // their number grows with the perimeter, not with the area. L. Scandolo, "Compression and rendering with
 // image-based representations", thesis, 2019, section 3.4.2, figure 3.2, table 3.1.
 //
-// Calls: optics/aperture_shapes.h make_aperture, optics/quads.h quads_of, mask_of.
+// Calls: optics/aperture_shapes.h make_aperture, optics/field/quads.h quads_of, mask_of.
 
 #include <algorithm>
 #include <array>
@@ -141,7 +141,7 @@ Image<Rgb8> lesson_9_quads(const Exec&) {
         "lesson 10 adds them up.\n \nTwice the resolution costs twice the\nquads, for four times "
         "the texels: half of\nall quads are as small as a texel and lie\nalong the edge. A box needs few or "
         "many,\nas its edges fall among the squares.");
-    f.source_line(9, "optics/quads.h quads_of mask_of · optics/aperture_shapes.h make_aperture");
+    f.source_line(9, "optics/field/quads.h quads_of mask_of · optics/aperture_shapes.h make_aperture");
     return f.picture;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "filters/fft.h"
+#include "optics/far_field.h"
 #include "optics/field/field.h"
 #include "optics/field/natural_grid.h"
 #include "optics/field/row_runs.h"

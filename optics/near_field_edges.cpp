@@ -8,6 +8,7 @@
 
 #include "core/image.h"
 #include "optics/field/near_field_separable.h"
+#include "optics/near_field_methods.h"
 
 namespace obscura {
 namespace {

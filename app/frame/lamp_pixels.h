@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/frame/frame.h"
-#include "core/scene.h"
+#include "app/scene/scene.h"
 
 namespace obscura {
 

@@ -2,8 +2,8 @@
 // The scene's lens in the terms of optics/: its aperture, and what its picture of a point of light needs.
 
 #include "app/scene/scene.h"
-#include "optics/field/aperture.h"
 #include "optics/far_field.h"
+#include "optics/field/aperture.h"
 #include "optics/glare.h"
 #include "optics/psf.h"
 

@@ -376,7 +376,7 @@ TEST(DiffractionCommand, MistakesAreToldBeforeAnythingIsComputed) {
         {{"iris", "--spectrum", "d65", "--wavelengths", "9", "--spectrum-mode", "batch4"},
          2,
          "--wavelengths is of --spectrum-mode exact, not of batch4"},
-        {{"iris", "--spectrum", "d65", "--spectrum-mode", "batch4", "--limit-memory", "200"},
+        {{"iris", "--spectrum", "d65", "--zoom", "1", "--spectrum-mode", "batch4", "--limit-memory", "200"},
          4,
          "more than --limit-memory 200"},
         {{"iris", "--pitch-um", "5x6"}, 2, "texels must be square"},

@@ -10,9 +10,9 @@
 
 #include "app/cli/check_command.h"
 #include "app/frame/glare_memory.h"
+#include "app/frame/lamp_pixels.h"
 #include "app/frame/lens.h"
 #include "app/frame/render_frame.h"
-#include "app/frame/lamp_pixels.h"
 #include "app/report/lens_text.h"
 #include "app/report/render_stats.h"
 #include "app/scene/build.h"
