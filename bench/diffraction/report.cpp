@@ -172,10 +172,8 @@ std::string diffraction_csv(const std::vector<DiffractionRow>& rows) {
 }
 
 std::string diffraction_markdown(const DiffractionResults& results, const BenchOptions& options) {
-    std::string text = "# Diffraction bench\n\n";
+    std::string text = report_head("Diffraction bench", "small apertures", options);
     const Out out(text);
-    if (options.quick)
-        fmt::format_to(out, "Quick run: small apertures, a check of the bench and not a measurement.\n\n");
     fmt::format_to(out,
                    "Least of up to {} interleaved turns after a warm-up. What is measured, and how: "
                    "bench/README.md.\n\n",

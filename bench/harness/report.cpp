@@ -13,6 +13,13 @@ std::string threads_text(int threads) {
     return threads == 1 ? "1 thread" : fmt::format("{} threads", threads);
 }
 
+std::string report_head(const char* title, const char* small, const BenchOptions& options) {
+    std::string text = fmt::format("# {}\n\n", title);
+    if (options.quick)
+        text += fmt::format("Quick run: {}, a check of the bench and not a measurement.\n\n", small);
+    return text;
+}
+
 void make_output_folder(const BenchOptions& options) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);

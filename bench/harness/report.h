@@ -34,6 +34,9 @@ std::vector<int> thread_counts(const std::vector<Row>& rows) {
 /// "1 thread", "2 threads".
 std::string threads_text(int threads);
 
+/// Title of a page, and whether it tells of a quick run: of what is `small` then.
+std::string report_head(const char* title, const char* small, const BenchOptions& options);
+
 /// Makes the folder that options name, where there is none. Throws OutputError.
 void make_output_folder(const BenchOptions& options);
 

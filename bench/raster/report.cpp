@@ -186,10 +186,8 @@ std::string runs_csv(const std::vector<BenchRow>& rows) {
 }
 
 std::string report_markdown(const std::vector<BenchRow>& rows, const BenchOptions& options) {
-    std::string text = "# Raster bench\n\n";
+    std::string text = report_head("Raster bench", "small pictures", options);
     const Out out(text);
-    if (options.quick)
-        fmt::format_to(out, "Quick run: small pictures, a check of the bench and not a measurement.\n\n");
     fmt::format_to(out,
                    "Medians of {} interleaved runs. What is measured, and what each peer is asked to do: "
                    "bench/README.md.\n\n",

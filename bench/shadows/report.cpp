@@ -276,11 +276,8 @@ std::string directions_csv(const std::vector<DirectionRow>& rows) {
 }
 
 std::string shadow_markdown(const ShadowResults& results, const BenchOptions& options) {
-    std::string text = "# Shadow bench\n\n";
+    std::string text = report_head("Shadow bench", "small maps of a small scene", options);
     const Out out(text);
-    if (options.quick)
-        fmt::format_to(
-            out, "Quick run: small maps of a small scene, a check of the bench and not a measurement.\n\n");
     fmt::format_to(out,
                    "Medians of up to {} interleaved runs. What is measured, and how: bench/README.md.\n\n",
                    options.runs);

@@ -210,10 +210,8 @@ std::string stereo_cases_csv(const StereoResults& results) {
 }
 
 std::string stereo_markdown(const StereoResults& results, const BenchOptions& options) {
-    std::string text = "# Stereo bench\n\n";
+    std::string text = report_head("Stereo bench", "small pictures", options);
     const Out out(text);
-    if (options.quick)
-        fmt::format_to(out, "Quick run: small pictures, a check of the bench and not a measurement.\n\n");
     fmt::format_to(out,
                    "Least of up to {} interleaved turns after a warm-up. What is measured, and how: "
                    "bench/README.md.\n\n",
