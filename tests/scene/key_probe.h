@@ -64,7 +64,7 @@ inline std::vector<std::string> candidates(const KeySpec& key) {
             return {"[\"m\"]", "[\"other\"]"};
         case KeyType::vec3:
         case KeyType::vec3_or_number:
-            return {"[0.25, 0.5, 0.75]", "[0.5, 3, 1.25]", "[1, 0, 0.5]"};
+            return {"[0.25, 0.5, 0.75]", "[0.5, 3, 1.25]", "[1, 0, 0.5]", "[0.75, 1, 0.25]"};
         default:
             for (const double v : {0.3, 0.07, 0.02, 1.5, 4.0, 11.0, 37.0, 70.0, 120.0, 3000.0, -0.3})
                 add(v);
