@@ -29,6 +29,7 @@ enum class Aov { beauty, depth, normal, albedo, object, shadow };
 struct Output {
     Aov aov = Aov::beauty;
     std::string file;  ///< "####" stands for the frame number
+    friend bool operator==(const Output&, const Output&) = default;
 };
 
 /// Bounds that are checked before anything is allocated.
@@ -39,6 +40,7 @@ struct Limits {
     std::int64_t texture_mib = 1024;  ///< all decoded textures together
     std::int64_t frames = 65536;
     std::int64_t image_px = 16384;  ///< longest side of a frame
+    friend bool operator==(const Limits&, const Limits&) = default;
 };
 
 /// A light, and how its shadows are made.

@@ -1,6 +1,6 @@
 #pragma once
 // A scene file from text to values: pre-checks, TOML, overrides, schema, rules. What comes out is complete
-// and valid; building meshes and lights from it is scene_build.h.
+// and valid; building meshes and lights from it is build.h.
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// The shapes a [[mesh]] can ask for by name. Adding a generator is one entry in scene_shapes.cpp: its keys
+// The shapes a [[mesh]] can ask for by name. Adding a generator is one entry in shapes.cpp or generators.cpp: its keys
 // with ranges, defaults and words, how many triangles it will make, and the call.
 
 #include <cstdint>

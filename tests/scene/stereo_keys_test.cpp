@@ -218,9 +218,9 @@ void add(Hasher& h, const StereoSettings& s) {
     }
 }
 
-class StereoKeys : public SceneKeyProbe {
+class StereoKeys : public SceneKeyProbe<std::uint64_t> {
   protected:
-    std::uint64_t fingerprint_of(const SceneDocument& document) const override {
+    std::uint64_t look_of(const SceneDocument& document) const override {
         Scene scene = build_scene(document, access_);
         Hasher h;
         const FrameRange range = scene_frames(document);
@@ -243,7 +243,7 @@ TEST_F(StereoKeys, OfStereoAreRead) {
     const std::string wide = start + "[stereo]\n";
     expect_all_matter({wide, wide + "comfort_near_deg = 1\ncomfort_far_deg = -1\n"}, "stereo.",
                       stereo_table().keys);
-    EXPECT_EQ(fingerprint_of(read_scene_text(start, "a")), fingerprint_of(read_scene_text(wide, "a")))
+    EXPECT_EQ(look_of(read_scene_text(start, "a")), look_of(read_scene_text(wide, "a")))
         << "a scene without [stereo] has its defaults";
 }
 
@@ -268,7 +268,7 @@ TEST_F(StereoKeys, OfEditsAreRead) {
         expect_all_matter(bases, "stereo.edit.e.", variant.keys);
     }
     const auto masked = [&](const char* file) {
-        return fingerprint_of(read_scene_text(
+        return look_of(read_scene_text(
             start + edit(std::string("type = \"interface\"\nmask = \"") + file + "\"\n"), "a"));
     };
     EXPECT_NE(masked("one.pgm"), masked("other.pgm"));

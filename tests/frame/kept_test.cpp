@@ -1,0 +1,97 @@
+// What frames keep from those before: every key that changes a light, a camera or the picture is noticed,
+// unless it is listed as of no account for shadows.
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/frame/light_shadow.h"
+#include "app/scene/build.h"
+#include "app/scene/keyframes.h"
+#include "app/scene/keys.h"
+#include "core/error.h"
+#include "tests/scene/key_probe.h"
+
+namespace obscura {
+namespace {
+
+const std::string start = "format = 1\n[camera]\neye_m = [1, 2, 5]\nlook_at_m = [0, 0, 0]\n[material.main]\n";
+
+/// What the frame's shadow of light "l" is made for, and its picture.
+struct Made {
+    SceneLight light;
+    Camera camera;
+    RenderSettings render;
+    friend bool operator==(const Made&, const Made&) = default;
+};
+
+Made made_for(const std::string& scene, const std::vector<std::string>& overrides = {}) {
+    const SceneDocument document = read_scene_text(scene, "kept.toml", overrides);
+    const auto lights = subtables(document.root, "light");
+    return {lights.empty() ? SceneLight{} : light_of(*lights.at(0)), camera_of(camera_at(document, 1)),
+            render_settings_of(document)};
+}
+
+bool is_kept(const Made& before, const Made& now) {
+    LightShadow shadow;
+    shadow.camera = before.camera;
+    shadow.render = before.render;
+    return same_shadow(before.light, now.light) && same_picture(shadow, now.camera, now.render);
+}
+
+/// Changes every key once and sees that the shadow is made again, or kept where the key is `idle`.
+void expect_noticed(const std::string& scene, const std::string& prefix, const std::vector<KeySpec>& keys,
+                    const std::set<std::string>& idle) {
+    const Made before = made_for(scene);
+    for (const KeySpec& key : keys) {
+        if (key.table != nullptr) continue;
+        int changes = 0;
+        for (const std::string& value : candidates(key)) {
+            try {
+                const Made now = made_for(scene, {prefix + key.name + "=" + value});
+                if (now == before) continue;
+                ++changes;
+                EXPECT_EQ(is_kept(before, now), idle.contains(key.name))
+                    << prefix << key.name << " = " << value;
+            } catch (const InputError&) {
+                // Not every candidate fits.
+            }
+        }
+        EXPECT_GT(changes, 0) << prefix << key.name;
+    }
+}
+
+TEST(Kept, ShadowsNoticeEveryKeyOfTheirLight) {
+    for (const VariantSpec& kind : light_table().variants) {
+        const std::string scene =
+            start + "[[light]]\nid = \"l\"\ntype = \"" + kind.name + "\"\n" + required_keys(kind.keys);
+        expect_noticed(scene, "light.l.", kind.keys,
+                       {"irradiance_w_m2", "extraterrestrial_w_m2", "intensity_w_sr", "inner_cone_deg"});
+        expect_noticed(scene, "light.l.shadow.", shadow_table().keys, {"max_magnification"});
+    }
+}
+
+TEST(Kept, ShadowsForOnePictureNoticeEveryKeyOfIt) {
+    const auto own = [](std::size_t kind, const std::set<std::string>& names) {
+        std::vector<KeySpec> keys = camera_table().variants.at(kind).keys;
+        std::erase_if(keys, [&](const KeySpec& key) { return !names.contains(key.name); });
+        return keys;
+    };
+    expect_noticed(start, "camera.", own(0, {"vfov_deg", "focal_length_mm"}), {});
+    const std::string lens =
+        "format = 1\n[camera]\neye_m = [1, 2, 5]\nlook_at_m = [0, 0, 0]\nfocal_length_mm = 35\n";
+    expect_noticed(lens, "camera.", own(0, {"focal_length_mm", "sensor_height_mm"}), {});
+    expect_noticed(start, "render.", render_table().keys, {"exposure_ev", "tone", "receivers"});
+    const std::string wide =
+        "format = 1\n[camera]\nprojection = \"orthographic\"\nheight_m = 3\neye_m = [1, 2, 5]\n"
+        "look_at_m = [0, 0, 0]\n";
+    std::vector<KeySpec> keys = camera_table().keys;
+    std::erase_if(keys, [](const KeySpec& key) { return key.name == "projection"; });
+    expect_noticed(wide, "camera.", keys, {});
+    expect_noticed(wide, "camera.", own(1, {"height_m"}), {});
+}
+
+}  // namespace
+}  // namespace obscura
