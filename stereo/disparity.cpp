@@ -103,17 +103,6 @@ TwoWayDisparity two_way_disparity(const MiddleView& view, const DisparityMap& di
                          drawn(view, disparity, params.shift.right, params.join_px, exec), params, exec);
 }
 
-TwoWayDisparity two_way_of_depth(const Image<float>& left_depth_m, const Image<float>& right_depth_m,
-                                 const DisparityLaw& law, const TwoWayParams& params, const Exec& exec) {
-    const auto eye = [&](const Image<float>& depth_m) {
-        EyeDisparity e;
-        e.disparity = disparity_map(depth_m, law, exec);
-        e.original = e.disparity;
-        return e;
-    };
-    return cross_checked(eye(left_depth_m), eye(right_depth_m), params, exec);
-}
-
 Image<std::uint8_t> occlusion_mask(const EyeDisparity& eye) {
     Image<std::uint8_t> mask(eye.sight.width, eye.sight.height);
     for (std::size_t i = 0; i < mask.pixels.size(); ++i) {

@@ -60,10 +60,6 @@ TwoWayDisparity two_way_disparity(const MiddleView& view, const DisparityMap& di
 TwoWayDisparity cross_checked(EyeDisparity left, EyeDisparity right, const TwoWayParams& params,
                               const Exec& exec);
 
-/// cross_checked() of unedited eyes: z-buffers along the view axis, metres.
-TwoWayDisparity two_way_of_depth(const Image<float>& left_depth_m, const Image<float>& right_depth_m,
-                                 const DisparityLaw& law, const TwoWayParams& params, const Exec& exec);
-
 /// As a picture: 255 where this eye alone sees the surface (hidden, outside), 128 where unknown, else 0.
 Image<std::uint8_t> occlusion_mask(const EyeDisparity& eye);
 

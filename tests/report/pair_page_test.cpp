@@ -228,6 +228,19 @@ TEST(StereoReport, HistogramCountsEveryPixelOnce) {
     EXPECT_GE(h.first_px, -1e6);
 }
 
+TEST(SvgChart, WritesShapesAndEscapesWords) {
+    SvgChart chart(40, 20, "a < b");
+    chart.text({1, 2}, Align::right, "tick", "<&>");
+    chart.box({0, 1.25, 3, 4}, "zone");
+    chart.polyline({{0, 0}, {1, 2.5}}, "rms curve");
+    EXPECT_EQ(chart.markup(),
+              "<svg viewBox=\"0 0 40 20\" role=\"img\" aria-label=\"a &lt; b\" "
+              "preserveAspectRatio=\"xMidYMid meet\">"
+              "<text x=\"1.0\" y=\"2.0\" text-anchor=\"end\" class=\"tick\">&lt;&amp;&gt;</text>"
+              "<rect x=\"0.0\" y=\"1.2\" width=\"3.0\" height=\"4.0\" class=\"zone\"/>"
+              "<polyline points=\"0.0,0.0 1.0,2.5\" class=\"rms curve\"/></svg>");
+}
+
 TEST(StereoReport, TicksAreRoundNumbers) {
     EXPECT_EQ(round_ticks(-1, 1, 4), (std::vector<double>{-1, -0.5, 0, 0.5, 1}));
     EXPECT_EQ(round_ticks(0, 23, 5).size(), 5u);  // 0 5 10 15 20

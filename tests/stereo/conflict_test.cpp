@@ -163,19 +163,6 @@ TEST(StereoConflict, TheComfortZoneClampsWhateverIsOutside) {
     EXPECT_FLOAT_EQ(edited_system(view, {anchor(1, 10, 0.5)}, params, names).system.start(30, 3), 7);
 }
 
-TEST(StereoConflict, ZonesComeFromPercentAndDegrees) {
-    const ComfortZone percent = comfort_of_percent(2, -3, 1000);
-    EXPECT_DOUBLE_EQ(percent.nearest_px, 20);
-    EXPECT_DOUBLE_EQ(percent.farthest_px, -30);
-    const StereoRig rig;
-    const ComfortZone degrees = comfort_of_degrees(1, -1, 1000, rig);
-    EXPECT_NEAR(vergence_deg(degrees.nearest_px, 1000, rig), 1, 1e-9);
-    EXPECT_NEAR(vergence_deg(degrees.farthest_px, 1000, rig), -1, 1e-9);
-    const ComfortZone both = common(percent, {15, -40});
-    EXPECT_EQ(both.nearest_px, 15);
-    EXPECT_EQ(both.farthest_px, -30);
-}
-
 TEST(StereoConflict, FoldsAreLimitedButOldOnesStay) {
     for (const int reduction : {1, 2}) {
         const auto r = static_cast<float>(reduction);

@@ -179,12 +179,15 @@ TEST_P(BothEyes, FromTheMiddleViewAgreeWithRays) {
 
 TEST_P(BothEyes, FromTheirOwnDepthAgreeWithRays) {
     const RayScene scene;
-    Image<float> depth[2] = {{scene.width, scene.height}, {scene.width, scene.height}};
-    for (int e = 0; e < 2; ++e)
+    EyeDisparity eyes[2];
+    for (int e = 0; e < 2; ++e) {
+        Image<float> depth(scene.width, scene.height);
         for (int y = 0; y < scene.height; ++y)
             for (int x = 0; x < scene.width; ++x)
-                depth[e](x, y) = static_cast<float>(scene.seen(2 * e - 1, x, y).z);
-    const TwoWayDisparity two = two_way_of_depth(depth[0], depth[1], scene.law(), TwoWayParams{}, Exec{});
+                depth(x, y) = static_cast<float>(scene.seen(2 * e - 1, x, y).z);
+        eyes[e].disparity = eyes[e].original = disparity_map(depth, scene.law(), Exec{});
+    }
+    const TwoWayDisparity two = cross_checked(eyes[0], eyes[1], TwoWayParams{}, Exec{});
     const int side = GetParam();
     const Agreement a = compare(scene, side < 0 ? two.left : two.right, side);
     fmt::print("wrong sight {} worst {:.4g} px of {}\n", a.wrong_sight, a.worst_px, a.pixels);

@@ -299,6 +299,22 @@ TEST(Solver, NamesWhatContradicts) {
     }
 }
 
+TEST(Methods, EachIsReachedByItsName) {
+    const DisparitySystem s = test_system(60, 40, true, 1);
+    SolverParams p;
+    p.method = SolverMethod::cascade;
+    const Solution paper = solve_by_method(s, p, {});
+    EXPECT_EQ(paper.disparity, solve_cascade(s, p, {}).disparity);
+    EXPECT_GT(paper.report.error_max_px, 0);
+    EXPECT_GT(paper.report.residual, 0);
+    EXPECT_FALSE(paper.report.converged);
+    for (const SolverMethod method : {SolverMethod::vcycle, SolverMethod::fmg, SolverMethod::multigrid}) {
+        p.method = method;
+        EXPECT_EQ(solve_by_method(s, p, {}).disparity, solve(s, p, {}).disparity);
+        EXPECT_NE(solve_by_method(s, p, {}).disparity, paper.disparity);
+    }
+}
+
 TEST(Cascade, NeedsTheCorrectedSign) {
     const DisparitySystem s = test_system(240, 135, false, 0);
     SolverParams p = tight();
