@@ -2,7 +2,6 @@
 // The flags of one command: CLI11 takes the command line apart, this decides how values are read and how
 // the help looks. Numbers are decimal (010 is ten), a flag may be given once unless it is a list.
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -42,20 +41,28 @@ class Flags {
     std::string help() const;
 
   private:
-    struct Row {
-        std::string group, left, doc;
+    /// How a flag appears on the command line: alone, alone and again, with a value, with a value and again;
+    /// or as a value without a flag.
+    enum class Form { on_off, counted, value, list, positional };
+    /// What the command line gave: how often, and the values in order.
+    struct Given {
+        std::int64_t times = 0;
+        std::vector<std::string> values;
     };
-    CLI::Option* finish(CLI::Option* option, const std::string& names, const std::string& value,
-                        const std::string& doc, const std::string& shown);
+    struct Row {
+        Form form = Form::on_off;
+        std::string group, names, value, doc;
+        std::function<void(const Given&)> read;  ///< every row's, once the whole line is taken apart
+    };
+    struct Line;
+
+    void add(Form form, const std::string& names, const std::string& value, const std::string& doc,
+             const std::string& shown, std::function<void(const Given&)> read);
     [[noreturn]] void reject(const std::string& message) const;
-    void reject_leftovers() const;
+    void reject_leftovers(std::vector<std::string> left) const;
 
     std::string usage, summary, heading, closing;
-    CLI::App app;
     std::vector<Row> rows;
-    std::vector<std::string> long_names;
-    std::vector<std::function<void()>> readers;  ///< run after CLI11 is done, in the order of declaration
-    bool help_wanted = false;
 };
 
 /// The flags that choose how to execute: -t, --threads and --isa, under a heading of their own.

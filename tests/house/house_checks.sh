@@ -31,15 +31,15 @@ check_doors() {
     door TBB '(one)?tbb/|oneapi/' 'core/parallel\.cpp'
     door xsimd 'xsimd/' 'core/simd(_[a-z]+)?\.h'
     door stb 'stb/|stb_' 'core/image_io\.cpp'
-    door toml++ 'toml\+\+/|toml\.hpp' 'app/scene_file[a-z_]*\.cpp'
+    door toml++ 'toml\+\+/|toml\.hpp' 'app/scene/toml_parse\.cpp'
     door tinyobjloader 'tiny_obj' 'app/scene/obj_file\.cpp|tests/fuzz/obj_peer\.cpp'
-    door CLI11 'CLI/|CLI11' 'app/(main|cli[a-z_]*)\.(cpp|h)'
+    door CLI11 'CLI/|CLI11' 'app/cli/flags\.cpp'
     door GoogleTest 'g(test|mock)/' 'tests/.*'
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
     door 'Embree, OSMesa' 'embree|GL/' 'bench/.*'
-    door FFTW 'fftw3' 'bench/peer_fftw\.cpp'
-    door CHOLMOD 'cholmod' 'bench/peer_cholmod\.cpp'
-    door Eigen 'Eigen/' 'bench/peer_eigen\.cpp|tests/stereo_truth_test\.cpp'
+    door FFTW 'fftw3' 'bench/diffraction/peer_fftw\.cpp'
+    door CHOLMOD 'cholmod' 'bench/stereo/peer_cholmod\.cpp'
+    door Eigen 'Eigen/' 'bench/stereo/peer_eigen\.cpp|tests/stereo/truth_test\.cpp'
     door 'wide intrinsics' '(imm|avx[a-z0-9_]*|x86)intrin\.h' 'core/simd(_[a-z]+)?\.h|bench/.*'
 }
 
@@ -166,12 +166,16 @@ self_test() {
     plant doors core/simd_lanes.h '#include <xsimd/xsimd.hpp>\n' clean
     plant doors core/a.h '#include <xsimd/xsimd.hpp>\n' found
     plant doors app/png.cpp '#include "stb_image.h"\n' found
-    plant doors app/render.cpp '#include <toml++/toml.h>\n' found
-    plant doors app/scene_file_parse.cpp '#include <toml++/toml.h>\n' clean
+    plant doors app/scene/scene_file.cpp '#include <toml++/toml.h>\n' found
+    plant doors app/scene/toml_parse.cpp '#include <toml++/toml.h>\n' clean
     plant doors core/mesh.cpp '#include <tiny_obj_loader.h>\n' found
     plant doors tests/fuzz/obj_dialect.cpp '#include <tiny_obj_loader.h>\n' found
     plant doors tests/fuzz/obj_peer.cpp '#include <tiny_obj_loader.h>\n' clean
-    plant doors app/render.cpp '#include <CLI/CLI.hpp>\n' found
+    plant doors app/scene/obj_file.cpp '#include <tiny_obj_loader.h>\n' clean
+    plant doors app/cli/flags.h '#include <CLI/CLI.hpp>\n' found
+    plant doors app/cli/render_command.cpp '#include <CLI/CLI.hpp>\n' found
+    plant doors app/cli/flags.cpp '#include <CLI/CLI.hpp>\n' clean
+    plant doors bench/stereo/peers.cpp '#include <cholmod.h>\n' found
     plant doors core/a.cpp '#include <immintrin.h>\n' found
     plant includes raster/a.cpp '#include "../core/vec.h"\n' found
     plant includes raster/a.cpp '#include "vec.h"\n' found
