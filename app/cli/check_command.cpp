@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "app/cli/flags.h"
+#include "app/cli/scene_flags.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
@@ -168,6 +170,16 @@ int check_command(const CheckOptions& options) {
     const std::string report = check_report(options);
     std::fputs(report.c_str(), stdout);
     return 0;
+}
+
+int run_check(const Arguments& arguments) {
+    Flags flags("check [options] SCENE",
+                "Reads, loads and validates a scene and prints what rendering would compute: lights, shadow "
+                "maps, memory, frames. Renders and writes nothing.");
+    SceneFlags scene;
+    scene.add_to(flags);
+    if (!flags.parse(arguments)) return 0;
+    return check_command({scene.scene, scene.all_overrides(), scene.allowed_paths()});
 }
 
 }  // namespace obscura

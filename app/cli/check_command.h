@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command.h"
+
 namespace obscura {
 
 struct CheckOptions {
@@ -19,5 +21,8 @@ std::string check_report(const CheckOptions& options);
 
 /// Prints the report. Returns the exit code.
 int check_command(const CheckOptions& options);
+
+/// The command line of it.
+int run_check(const Arguments& arguments);
 
 }  // namespace obscura

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "app/cli/flags.h"
 #include "app/scene/file_access.h"
 #include "core/error.h"
 #include "core/image_io.h"
@@ -102,6 +103,34 @@ int diff_command(const DiffOptions& options) {
     print(both, difference, options.threshold);
     const bool beyond = options.fail && difference.max_error > *options.fail;
     return static_cast<int>(beyond ? ExitCode::images_differ : ExitCode::ok);
+}
+
+int run_diff(const Arguments& arguments) {
+    Flags flags("diff [options] A B",
+                "Compares two PNG or two PFM files of the same size: prints the largest and mean difference, "
+                "PSNR, SSIM and how many pixels differ. Differences are in codes 0 to 255 (PNG) or in the "
+                "values of the file (PFM).");
+    std::string a, b, picture;
+    double fail = -1;
+    bool overwrite = false;
+    DiffOptions options;
+    flags.positional("A", a, "The first picture.");
+    flags.positional("B", b, "The second picture.");
+    flags.group("Comparison");
+    flags.number("--threshold", "DIFF", options.threshold, 0, 1e30, "Count the pixels that differ by more.",
+                 "0");
+    flags.number("--fail", "DIFF", fail, 0, 1e30, "Exit with 10 when the largest difference is above this.",
+                 "never");
+    flags.group("Output");
+    flags.text("-o,--output", "FILE", picture, "Write a picture of the differences (.png).", "none");
+    flags.on_off("--overwrite", overwrite, "Replace the picture when it exists.");
+    if (!flags.parse(arguments)) return 0;
+    options.a = a;
+    options.b = b;
+    options.picture = picture;
+    if (fail >= 0) options.fail = fail;
+    options.existing = overwrite ? Existing::replace : Existing::refuse;
+    return diff_command(options);
 }
 
 }  // namespace obscura

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "app/cli/command.h"
 #include "core/file_output.h"
 #include "core/isa.h"
 
@@ -23,5 +24,8 @@ struct DiffOptions {
 /// refer to the range of A). Returns 0, or 10 when beyond `fail`. Throws InputError when the files are not
 /// comparable, UsageError for a negative or NaN fail or threshold, OutputError.
 int diff_command(const DiffOptions& options);
+
+/// The command line of it.
+int run_diff(const Arguments& arguments);
 
 }  // namespace obscura

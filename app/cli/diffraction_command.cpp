@@ -11,12 +11,11 @@
 
 #include "app/cli/diffraction_grid.h"
 #include "app/cli/progress.h"
-#include "app/report/json_writer.h"
+#include "app/report/run_stats.h"
 #include "app/scene/aperture_file.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "core/num.h"
-#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "optics/aperture_dirt.h"
 #include "optics/aperture_extent.h"
@@ -256,9 +255,9 @@ Pattern near_pattern(const DiffractionOptions& options, Job& job, const Hear& pr
 /// Tells how far colours are that take long enough to ask.
 Pattern pattern_with_progress(const DiffractionOptions& options, Job& job) {
     constexpr double worth_telling_ms = 2000;
-    const int threads = options.exec.threads > 0 ? options.exec.threads : hardware_threads();
     Progress meter(stderr, Progress::style_for(
-                               stderr, job.wavelengths == 1 || job.total_ms < worth_telling_ms * threads));
+                               stderr, job.wavelengths == 1 ||
+                                           job.total_ms < worth_telling_ms * thread_count(options.exec)));
     meter.begin(fmt::format("{} wavelengths", job.wavelengths), 0, 1);
     const Hear progress = [&](double share) { meter.update(share); };
     Pattern pattern =
@@ -322,8 +321,8 @@ std::string stats_text(const DiffractionOptions& options, const Job& job, double
     json.begin_object().member("schema", 1).member("aperture", options.aperture);
     json.member("mask_width", job.aperture.mask.width).member("mask_height", job.aperture.mask.height);
     json.member("pitch_m", job.aperture.pitch_m).member("open_texels", job.open);
-    json.member("size_px", options.size_px).member("isa", isa_name(options.exec.isa));
-    json.member("threads", options.exec.threads > 0 ? options.exec.threads : hardware_threads());
+    json.member("size_px", options.size_px);
+    put_execution(json, options.exec);
     const bool near = options.near_m.has_value();
     json.member("field", near ? "near" : "far");
     json.member("method", near ? near_field_method_name(job.near_plan.method)
@@ -356,7 +355,7 @@ int diffraction_command(const DiffractionOptions& options) {
     fmt::print("{}{}", aperture_text(options, job), pattern_text(options, job));
     std::fflush(stdout);
     if (options.near_m && fresnel_number(job.aperture, job.near) < far_fresnel_number)
-        fmt::print(stderr, "obscura: note: so far away the pattern is all but the far field's; see --far\n");
+        say_note("so far away the pattern is all but the far field's; see --far");
     if (options.plan_only) return 0;
     const Stopwatch watch;
     const Pattern pattern = pattern_with_progress(options, job);

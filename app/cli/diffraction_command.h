@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command.h"
 #include "app/report/output_plan.h"
 #include "core/file_output.h"
 #include "core/isa.h"
@@ -66,5 +67,8 @@ struct DiffractionOptions {
 /// Prints the plan, computes, writes. PNG: the view; PFM: power relative to the far field's centre (that of
 /// the whole opening), or to the unobstructed wave (near field); of a spectrum linear sRGB.
 int diffraction_command(const DiffractionOptions& options);
+
+/// The command line of it.
+int run_diffraction(const Arguments& arguments);
 
 }  // namespace obscura

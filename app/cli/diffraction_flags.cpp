@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/commands.h"
 #include "app/cli/diffraction_command.h"
 #include "app/cli/flag_values.h"
 #include "app/cli/flags.h"

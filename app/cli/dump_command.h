@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/command.h"
+
 namespace obscura {
 
 struct DumpOptions {
@@ -16,5 +18,8 @@ struct DumpOptions {
 
 /// Prints to standard output. Returns the exit code. Throws InputError, LimitError.
 int dump_command(const DumpOptions& options);
+
+/// The command line of it.
+int run_dump(const Arguments& arguments);
 
 }  // namespace obscura

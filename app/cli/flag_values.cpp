@@ -71,18 +71,18 @@ Size2 size_value(const std::string& flag, std::string_view text) {
     return size;
 }
 
-PixelRect crop_value(const std::string& flag, std::string_view text, int width, int height) {
+Region crop_value(const std::string& flag, std::string_view text, int width, int height) {
     const auto parts = split(text, ',');
-    PixelRect r;
-    if (parts.size() != 4 || !read_whole(parts[0], r.x0) || !read_whole(parts[1], r.y0) ||
-        !read_whole(parts[2], r.x1) || !read_whole(parts[3], r.y1)) {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    if (parts.size() != 4 || !read_whole(parts[0], x0) || !read_whole(parts[1], y0) ||
+        !read_whole(parts[2], x1) || !read_whole(parts[3], y1)) {
         reject(flag, text, "a rectangle in pixels like 0,0,320,200 (x0,y0,x1,y1; the last two outside)");
     }
-    if (r.x0 < 0 || r.y0 < 0 || r.x1 <= r.x0 || r.y1 <= r.y0 || r.x1 > width || r.y1 > height) {
+    if (x0 < 0 || y0 < 0 || x1 <= x0 || y1 <= y0 || x1 > width || y1 > height) {
         reject(flag, text,
                fmt::format("a rectangle x0 < x1, y0 < y1 inside the {} x {} picture", width, height));
     }
-    return r;
+    return {x0, y0, x1 - x0, y1 - y0};
 }
 
 PixelPlace pixel_value(const std::string& flag, std::string_view text, int width, int height) {

@@ -9,6 +9,7 @@
 #include "app/scene/keyframes.h"
 #include "app/scene/scene.h"
 #include "core/isa.h"
+#include "core/types.h"
 
 namespace obscura {
 
@@ -21,15 +22,8 @@ double real_number(const std::string& flag, std::string_view text, double low, d
 /// "960x540".
 Size2 size_value(const std::string& flag, std::string_view text);
 
-/// Pixels x0 <= x < x1, y0 <= y < y1 of the whole picture, row 0 on top.
-struct PixelRect {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    int width() const { return x1 - x0; }
-    int height() const { return y1 - y0; }
-    friend bool operator==(const PixelRect&, const PixelRect&) = default;
-};
-/// "x0,y0,x1,y1", not empty, inside a width x height picture.
-PixelRect crop_value(const std::string& flag, std::string_view text, int width, int height);
+/// "x0,y0,x1,y1", the last two outside: not empty, inside a width x height picture.
+Region crop_value(const std::string& flag, std::string_view text, int width, int height);
 
 /// A pixel of the picture.
 struct PixelPlace {

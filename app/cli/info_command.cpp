@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "app/cli/flags.h"
 #include "core/edges.h"
 #include "core/error.h"
 
@@ -100,6 +101,25 @@ int info_command(const InfoOptions& options, std::ostream& out) {
 
 int info_command(const InfoOptions& options) {
     return info_command(options, std::cout);
+}
+
+int run_info(const Arguments& arguments) {
+    Flags flags("info [options] FILE",
+                "Prints what a mesh file (Wavefront OBJ) holds: triangles, components closed or open, open "
+                "edges, bounding box in the file's own units, degenerate triangles.");
+    std::string file;
+    std::vector<std::string> allowed;
+    InfoOptions options;
+    flags.positional("FILE", file, "The mesh file.");
+    flags.group("Input");
+    flags.list("--allow-path", "DIR", allowed,
+               "A folder besides the file's own that material files may lie in; may be given again.");
+    flags.on_off("--allow-missing", options.allow_missing,
+                 "Go on without material files that are not there.");
+    if (!flags.parse(arguments)) return 0;
+    options.file = file;
+    options.allowed_paths = {allowed.begin(), allowed.end()};
+    return info_command(options);
 }
 
 }  // namespace obscura

@@ -5,6 +5,7 @@
 #include <iosfwd>
 #include <vector>
 
+#include "app/cli/command.h"
 #include "app/scene/obj_file.h"
 
 namespace obscura {
@@ -34,5 +35,8 @@ struct InfoOptions {
 int info_command(const InfoOptions& options, std::ostream& out);
 /// To standard output.
 int info_command(const InfoOptions& options);
+
+/// The command line of it.
+int run_info(const Arguments& arguments);
 
 }  // namespace obscura

@@ -8,8 +8,6 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "core/stopwatch.h"
-
 namespace obscura {
 namespace {
 
@@ -27,6 +25,10 @@ bool wants_colour(std::FILE* stream) {
     const char* term = std::getenv("TERM");
     return is_terminal(stream) && (no_colour == nullptr || *no_colour == '\0') && term != nullptr &&
            std::string_view(term) != "dumb";
+}
+
+void say_note(const std::string& text) {
+    fmt::print(stderr, "obscura: note: {}\n", text);
 }
 
 Progress::Style Progress::style_for(std::FILE* stream, bool quiet) {
@@ -51,20 +53,16 @@ void Progress::begin(std::string label_, double from_, double to_) {
     to = to_;
 }
 
-double Progress::seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 void Progress::update(double fraction) {
     if (style == Style::silent) return;
     const double share = from + (to - from) * std::clamp(fraction, 0.0, 1.0);
     // What was done before the first sign of progress (shadow maps, setup) says nothing about the rate.
     std::call_once(first, [&] {
-        first_s = seconds();
+        first_s = watch.seconds();
         first_share = share;
     });
     if (style == Style::live) {
-        const auto now = static_cast<std::int64_t>(seconds() * 1000);
+        const auto now = static_cast<std::int64_t>(watch.seconds() * 1000);
         std::int64_t due = next_ms.load();
         if (now < due || !next_ms.compare_exchange_strong(due, now + live_interval_ms)) return;
     } else {
@@ -82,7 +80,7 @@ void Progress::finish() {
 
 void Progress::show(double share) {
     const std::lock_guard lock(mutex);
-    const double elapsed = seconds();
+    const double elapsed = watch.seconds();
     std::string line =
         fmt::format("{}: {:3.0f} %  {}", label, std::floor(share * 100), duration_text(elapsed));
     const double known_s = elapsed - first_s, known = share - first_share;

@@ -1,17 +1,22 @@
 #pragma once
-// Tells how far the work is: one line that renews itself on a terminal, one line per 10 % elsewhere.
+// What is told on standard error. Progress: one line that renews itself on a terminal, one line per 10 %
+// elsewhere.
 
 #include <atomic>
-#include <chrono>
 #include <cstdio>
 #include <mutex>
 #include <string>
+
+#include "core/stopwatch.h"
 
 namespace obscura {
 
 /// Whether `stream` is a terminal, and one that may be coloured (NO_COLOR unset or empty, TERM not "dumb").
 bool is_terminal(std::FILE* stream);
 bool wants_colour(std::FILE* stream);
+
+/// "obscura: note: TEXT" on standard error.
+void say_note(const std::string& text);
 
 class Progress {
   public:
@@ -35,12 +40,10 @@ class Progress {
 
   private:
     void show(double share);
-    double seconds() const;  ///< since the beginning
 
-    using Clock = std::chrono::steady_clock;
     std::FILE* stream;
     Style style;
-    Clock::time_point start = Clock::now();
+    Stopwatch watch;  ///< since the beginning
     std::mutex mutex;
     std::atomic<std::int64_t> next_ms{0};  ///< live: nothing is written before
     std::atomic<int> next_tenth{1};        ///< lines: nothing is written before this many tenths

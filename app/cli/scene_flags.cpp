@@ -37,4 +37,30 @@ std::vector<std::string> SceneFlags::all_overrides() const {
     return all;
 }
 
+void RunFlags::add_frames_to(Flags& flags) {
+    flags.on_off("--overwrite", run.overwrite, "Replace files that exist; otherwise they are an error.");
+    flags.text("--frames", "RANGE", run.frames, "Frames to render: 1-48x2 or 1,5,9-12.", "all of the scene");
+}
+
+void RunFlags::add_execution_to(Flags& flags, const std::string& statistics) {
+    add_exec_flags(flags, threads, isa);
+    flags.group("Messages");
+    flags.on_off("-q,--quiet", run.quiet, "Say nothing but errors.");
+    flags.counted("-v,--verbose", run.verbosity, "Say what each stage took.");
+    flags.text("--stats-json", "FILE", stats, statistics, "none");
+}
+
+SceneRun RunFlags::value() const {
+    SceneRun out = run;
+    out.scene = scene.scene;
+    out.overrides = scene.all_overrides();
+    out.allowed_paths = scene.allowed_paths();
+    out.stats_json = stats;
+    return out;
+}
+
+Exec RunFlags::exec() const {
+    return {isa_value("--isa", isa), static_cast<int>(threads)};
+}
+
 }  // namespace obscura

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/cli/flags.h"
+#include "app/cli/scene_run.h"
 
 namespace obscura {
 
@@ -21,6 +22,22 @@ struct SceneFlags {
     /// All changes as "key=value", -D first, so that a flag of its own wins.
     std::vector<std::string> all_overrides() const;
     std::vector<std::filesystem::path> allowed_paths() const { return {allowed.begin(), allowed.end()}; }
+};
+
+/// The flags of every command that renders a scene. Must outlive their parsing, too.
+struct RunFlags {
+    SceneFlags scene;
+    SceneRun run;
+    std::string isa = "auto", stats;
+    std::int64_t threads = 0;
+
+    /// --overwrite and --frames.
+    void add_frames_to(Flags& flags);
+    /// How to execute and what to say; `statistics`: what --stats-json writes.
+    void add_execution_to(Flags& flags, const std::string& statistics);
+    /// The values, but for `exec`: a command judges its own flags before that.
+    SceneRun value() const;
+    Exec exec() const;
 };
 
 }  // namespace obscura

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <new>
 
-#include "app/cli/flag_values.h"
-#include "app/cli/progress.h"
 #include "app/cli/signals.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
@@ -16,31 +13,18 @@
 #include "app/report/pair_page.h"
 #include "app/report/pair_pictures.h"
 #include "app/report/pair_stats.h"
-#include "app/scene/keyframes.h"
+#include "app/scene/build.h"
 #include "app/scene/stereo_settings.h"
-#include "core/error.h"
-#include "core/file_output.h"
 #include "core/stopwatch.h"
 
 namespace obscura {
 namespace {
-
-/// Runs one stage; when memory ends in it, the message says in which.
-template <class Fn>
-auto in_stage(const std::string& stage, Fn&& fn) {
-    try {
-        return fn();
-    } catch (const std::bad_alloc&) {
-        throw LimitError("out of memory while " + stage);
-    }
-}
 
 /// Everything that is settled before the scene is loaded.
 struct StereoPlan {
     SceneDocument document;
     std::vector<int> frames;
     std::vector<StereoFile> files;
-    Existing existing = Existing::refuse;
     bool screen_given = false;  ///< zero_parallax_m is in the scene
 };
 
@@ -54,24 +38,18 @@ bool gives_screen(const SceneTable& root) {
 
 StereoPlan plan_stereo(const StereoOptions& options) {
     StereoPlan plan;
-    plan.document = read_scene(options.scene, options.overrides);
+    plan.document = read_scene(options.run.scene, options.run.overrides);
     const SceneTable& root = plan.document.root;
     if (text(subtable(root, "camera"), "projection") != "perspective") {
         throw InputError(plan.document.sources[0],
                          "stereo needs a camera with projection = \"perspective\": parallel views have no "
                          "disparity");
     }
-    const FrameRange range = scene_frames(plan.document);
-    if (options.frames.empty()) {
-        for (int i = 0; i < range.count(); ++i)
-            plan.frames.push_back(range.at(i));
-    } else {
-        plan.frames = frame_values("--frames", options.frames, range);
-    }
+    plan.frames = frames_of(options.run, plan.document);
     StereoFileRequest request;
     const bool several = plan.frames.size() > 1;
     request.output = options.output.empty()
-                         ? options.scene.stem().string() + (several ? ".stereo.####.png" : ".stereo.png")
+                         ? options.run.scene.stem().string() + (several ? ".stereo.####.png" : ".stereo.png")
                          : options.output;
     request.maps = options.maps;
     request.report = options.report;
@@ -79,7 +57,6 @@ StereoPlan plan_stereo(const StereoOptions& options) {
     request.compare = options.compare;
     request.several_frames = several;
     plan.files = plan_stereo_files(request);
-    plan.existing = options.overwrite ? Existing::replace : Existing::refuse;
     plan.screen_given = gives_screen(root);
     return plan;
 }
@@ -88,17 +65,17 @@ StereoPlan plan_stereo(const StereoOptions& options) {
 void check_outputs(const StereoPlan& plan, const StereoOptions& options) {
     for (const int frame : plan.frames) {
         for (const StereoFile& file : plan.files)
-            check_writable(stereo_path(plan.files, file.role, frame), plan.existing);
+            check_writable(stereo_path(plan.files, file.role, frame), options.run.existing());
     }
-    if (options.stats_json.empty()) return;
+    if (options.run.stats_json.empty()) return;
     for (const int frame : plan.frames) {
         for (const StereoFile& file : plan.files) {
-            if (stereo_path(plan.files, file.role, frame) == options.stats_json)
-                throw UsageError(
-                    fmt::format("--stats-json: '{}' is one of the pictures", options.stats_json.string()));
+            if (stereo_path(plan.files, file.role, frame) == options.run.stats_json)
+                throw UsageError(fmt::format("--stats-json: '{}' is one of the pictures",
+                                             options.run.stats_json.string()));
         }
     }
-    check_writable(options.stats_json, plan.existing);
+    check_writable(options.run.stats_json, options.run.existing());
 }
 
 void shrink_for_preview(Scene& scene) {
@@ -146,7 +123,7 @@ StereoPair make_pair(Run& run, const StereoSettings& settings, StereoCache& cach
     options.channels.progress = [&](double fraction) { run.progress.update(fraction); };
     cache.eyes.frame.access = run.access;
     StereoPair pair;
-    render_stereo_pair(run.scene, settings, options, run.options.exec, cache, pair);
+    render_stereo_pair(run.scene, settings, options, run.options.run.exec, cache, pair);
     stop_if_requested();
     return pair;
 }
@@ -157,7 +134,7 @@ void write_files(const Run& run, const std::vector<RoledFile>& files, const std:
     for (const RoledFile& file : files) {
         stop_if_requested();
         const std::filesystem::path path = stereo_path(run.plan.files, prefix + file.role, report.frame);
-        write_file_atomically(path, file.bytes, run.plan.existing);
+        write_file_atomically(path, file.bytes, run.options.run.existing());
         report.files.push_back(
             {path.string(), prefix + file.role, static_cast<std::int64_t>(file.bytes.size())});
     }
@@ -166,8 +143,8 @@ void write_files(const Run& run, const std::vector<RoledFile>& files, const std:
 
 void write_layout(const Run& run, const char* role, const StereoPair& pair, StereoFrameReport& report) {
     const RenderSettings& render = run.scene.render;
-    const Image<Vec3f> left = display_light(pair.eyes.left.radiance.view(), render, run.options.exec),
-                       right = display_light(pair.eyes.right.radiance.view(), render, run.options.exec);
+    const Image<Vec3f> left = display_light(pair.eyes.left.radiance.view(), render, run.options.run.exec),
+                       right = display_light(pair.eyes.right.radiance.view(), render, run.options.run.exec);
     write_files(run, laid_out_files(role, left, right, run.options.layout), "", report);
 }
 
@@ -188,7 +165,7 @@ void write_comparisons(Run& run, const StereoPair& pair, const StereoSettings& s
     const Stopwatch watch;
     const double written_s = report.write_s;
     if (compare.warp) {
-        const WarpedPair both = warped_pair(pair, run.scene.render, run.options.exec);
+        const WarpedPair both = warped_pair(pair, run.scene.render, run.options.run.exec);
         report.warp_holes = both.holes;
         write_files(run, laid_out_files("warp", both.left, both.right, run.options.layout), "", report);
     }
@@ -212,22 +189,17 @@ void write_report(Run& run, const StereoPair& pair, const StereoSettings& settin
                   StereoFrameReport& report) {
     const Stopwatch watch;
     const double written_s = report.write_s;
-    const Exec& exec = run.options.exec;
+    const Exec& exec = run.options.run.exec;
     const RenderSettings& render = run.scene.render;
     const StereoPair rig = make_pair(run, unedited(settings), run.compare_cache, false);
     run.compare_cache.last.reset();
     const std::string page =
-        stereo_report({run.scene, settings, pair, report, run.options.scene.filename().string(),
+        stereo_report({run.scene, settings, pair, report, run.options.run.scene.filename().string(),
                        display_light(rig.eyes.left.radiance.view(), render, exec),
                        display_light(rig.eyes.right.radiance.view(), render, exec)},
                       exec);
     write_files(run, {{"report", page}}, "", report);
     report.compare_s += watch.seconds() - (report.write_s - written_s);
-}
-
-void say_notes(const std::vector<std::string>& notes, int frame, bool several) {
-    for (const std::string& note : notes)
-        fmt::print(stderr, "obscura: note: {}{}\n", several ? fmt::format("frame {}: ", frame) : "", note);
 }
 
 /// "frame 1 in 2.10 s: pair.png, ...".
@@ -250,23 +222,34 @@ void render_one(Run& run, int number, StereoReport& report) {
     in_stage(fmt::format("writing frame {}", number), [&] {
         write_layout(run, "", pair, frame);
         if (!run.options.maps.empty()) {
-            write_files(run, map_files(pair, settings, run.scene.render, run.options.exec), "map.", frame);
+            write_files(run, map_files(pair, settings, run.scene.render, run.options.run.exec), "map.",
+                        frame);
         }
         write_comparisons(run, pair, settings, frame);
         if (!run.options.report.empty()) write_report(run, pair, settings, frame);
     });
-    if (run.options.quiet) return;
+    if (run.options.run.quiet) return;
     run.progress.clear();
     const bool several = run.plan.frames.size() > 1;
     if (report.frames.size() == 1 && !run.plan.screen_given) {
-        fmt::print(stderr,
-                   "obscura: note: the screen stands where the camera looks, at {:.4g} m "
-                   "(stereo.zero_parallax_m moves it)\n",
-                   settings.rig.zero_parallax_m);
+        say_note(
+            fmt::format("the screen stands where the camera looks, at {:.4g} m (stereo.zero_parallax_m moves "
+                        "it)",
+                        settings.rig.zero_parallax_m));
     }
-    say_notes(frame.notes, number, several);
-    if (!several || run.options.verbosity > 0) say_frame(frame);
-    if (run.options.verbosity > 0) fmt::print(stderr, "{}", stereo_details(pair, settings));
+    for (const std::string& note : frame.notes)
+        say_note(several ? fmt::format("frame {}: {}", number, note) : note);
+    if (!several || run.options.run.verbosity > 0) say_frame(frame);
+    if (run.options.run.verbosity > 0) fmt::print(stderr, "{}", stereo_details(pair, settings));
+}
+
+StereoReport begin_report(const StereoOptions& options, const Scene& scene) {
+    StereoReport report;
+    report.run = {options.run.scene.string(), options.run.exec,     scene.render.width,
+                  scene.render.height,        scene.render.samples, scene.limits.memory_mib};
+    report.layout = layout_name(options.layout);
+    report.preview = options.preview;
+    return report;
 }
 
 }  // namespace
@@ -275,41 +258,27 @@ int stereo_command(const StereoOptions& options) {
     const Stopwatch watch;
     const StereoPlan plan = in_stage("reading the scene", [&] { return plan_stereo(options); });
     check_outputs(plan, options);
-    const FileAccess access{plan.document.folder, options.allowed_paths};
+    const FileAccess access{plan.document.folder, options.run.allowed_paths};
     Scene scene = in_stage("loading the scene", [&] { return load_scene(plan.document, access); });
     if (options.preview) shrink_for_preview(scene);
 
-    Run run{options, plan, scene, access, {stderr, Progress::style_for(stderr, options.quiet)}, {}, {}};
+    Run run{options, plan, scene, access, {stderr, Progress::style_for(stderr, options.run.quiet)}, {}, {}};
     // Names that the scene does not have, and what will not fit, are told before the first tile.
     set_stereo_frame(scene, plan, options, plan.frames.front());
     MemoryEstimate memory = estimate_memory(scene);
     memory.frame += stereo_bytes(scene, settings_of(run, plan.frames.front()));
     check_memory(memory, scene.limits, plan.document.sources[0]);
 
-    StereoReport report;
-    report.scene = options.scene.string();
-    report.layout = layout_name(options.layout);
-    report.preview = options.preview;
-    report.exec = options.exec;
-    report.width = scene.render.width;
-    report.height = scene.render.height;
-    report.samples = scene.render.samples;
-    report.limit_mib = scene.limits.memory_mib;
-    report.load_s = watch.seconds();
+    StereoReport report = begin_report(options, scene);
+    report.run.load_s = watch.seconds();
 
     // From here on there are results to lose: a signal lets the current file finish.
     set_signal_policy(OnSignal::ask_to_stop);
-    const auto count = static_cast<double>(plan.frames.size());
-    for (std::size_t i = 0; i < plan.frames.size(); ++i) {
-        const auto done = static_cast<double>(i);
-        run.progress.begin(fmt::format("frame {} ({} of {})", plan.frames[i], i + 1, plan.frames.size()),
-                           done / count, (done + 1) / count);
-        render_one(run, plan.frames[i], report);
-    }
+    for_each_frame(plan.frames, run.progress, [&](int frame) { render_one(run, frame, report); });
     run.progress.finish();
-    report.total_s = watch.seconds();
-    if (!options.stats_json.empty())
-        write_file_atomically(options.stats_json, stereo_stats_json(report), plan.existing);
+    report.run.total_s = watch.seconds();
+    if (!options.run.stats_json.empty())
+        write_file_atomically(options.run.stats_json, stereo_stats_json(report), options.run.existing());
     return 0;
 }
 

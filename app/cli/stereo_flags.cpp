@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/commands.h"
 #include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
 #include "app/cli/scene_flags.h"
@@ -47,12 +46,12 @@ int run_stereo(const Arguments& arguments) {
         "stereo [options] SCENE",
         "Renders a scene for two eyes, its disparity edited as [stereo] says, and tells what the edits "
         "met with.");
-    SceneFlags scene;
+    RunFlags run;
     StereoOptions options;
-    std::string layout = "side-by-side", solver, compare, isa = "auto", stats;
-    std::int64_t threads = 0, map_scale = 0;
+    std::string layout = "side-by-side", solver, compare;
+    std::int64_t map_scale = 0;
 
-    scene.add_to(flags);
+    run.scene.add_to(flags);
     flags.group("Pictures");
     flags.text("-o,--output", "FILE", options.output,
                "Where the pair goes: .png (8-bit sRGB); #### stands for the frame number and pads it.",
@@ -76,9 +75,7 @@ int run_stereo(const Arguments& arguments) {
                "Write a page about the pair (.html, needs nothing else): disparity and anaglyph before and "
                "after, conflicts, histograms, convergence, times.",
                "none");
-    flags.on_off("--overwrite", options.overwrite, "Replace files that exist; otherwise they are an error.");
-    flags.text("--frames", "RANGE", options.frames, "Frames to render: 1-48x2 or 1,5,9-12.",
-               "all of the scene");
+    run.add_frames_to(flags);
     flags.group("Editing");
     flags.text("--solver", "SOLVER", solver, "multigrid, fmg, vcycle or cascade.", "the scene's");
     flags.whole("--map-scale", "N", map_scale, 1, 8, "Solve at 1 : N of the picture: 1, 2, 4 or 8.",
@@ -86,22 +83,14 @@ int run_stereo(const Arguments& arguments) {
     flags.on_off("--preview", options.preview,
                  "Pictures a quarter as wide and high, one sample per pixel, coarse shadows: for a quick "
                  "look at edits.");
-    add_exec_flags(flags, threads, isa);
-    flags.group("Messages");
-    flags.on_off("-q,--quiet", options.quiet, "Say nothing but errors.");
-    flags.counted("-v,--verbose", options.verbosity, "Say what each stage took.");
-    flags.text("--stats-json", "FILE", stats, "Write times (s), counts and disparities (pixels) as JSON.",
-               "none");
+    run.add_execution_to(flags, "Write times (s), counts and disparities (pixels) as JSON.");
     if (!flags.parse(arguments)) return 0;
 
-    options.scene = scene.scene;
-    options.overrides = scene.all_overrides();
-    add_overrides(solver, map_scale, options.overrides);
-    options.allowed_paths = scene.allowed_paths();
+    options.run = run.value();
+    add_overrides(solver, map_scale, options.run.overrides);
     options.layout = layout_value("--layout", layout);
     if (!compare.empty()) options.compare = compare_value("--compare", compare);
-    options.exec = {isa_value("--isa", isa), static_cast<int>(threads)};
-    options.stats_json = stats;
+    options.run.exec = run.exec();
     return stereo_command(options);
 }
 

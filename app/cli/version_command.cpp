@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "app/cli/flags.h"
 #include "app/report/program_version.h"
 #include "core/isa.h"
 #include "core/parallel.h"
@@ -31,6 +32,12 @@ int version_command() {
     fmt::print("threads           {}\n", hardware_threads());
     fmt::print("libraries         {}\n", OBSCURA_LIBRARIES);
     return 0;
+}
+
+int run_version(const Arguments& arguments) {
+    Flags flags("version", "Prints version, compiler, instruction sets, threads and libraries.");
+    if (!flags.parse(arguments)) return 0;
+    return version_command();
 }
 
 }  // namespace obscura

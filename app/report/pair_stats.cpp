@@ -1,10 +1,6 @@
 #include "app/report/pair_stats.h"
 
-#include "app/report/program_version.h"
-#include "app/report/json_writer.h"
 #include "app/report/pair_notes.h"
-#include "app/report/render_stats.h"
-#include "core/parallel.h"
 
 namespace obscura {
 namespace {
@@ -107,14 +103,14 @@ StereoFrameReport frame_report(int frame, const StereoPair& pair, const StereoSe
 
 std::string stereo_stats_json(const StereoReport& report) {
     JsonWriter json;
-    json.begin_object().member("schema", 1).member("program", program_version());
-    json.member("scene", report.scene).member("layout", report.layout).member("preview", report.preview);
-    json.member("isa", isa_name(report.exec.isa));
-    json.member("threads", report.exec.threads > 0 ? report.exec.threads : hardware_threads());
-    json.member("width_px", report.width).member("height_px", report.height);
-    json.member("samples", report.samples).member("limit_bytes", report.limit_mib << 20);
+    json.begin_object();
+    put_origin(json, report.run);
+    json.member("layout", report.layout).member("preview", report.preview);
+    put_execution(json, report.run.exec);
+    put_picture_size(json, report.run);
+    json.member("limit_bytes", report.run.limit_mib << 20);
     json.member("peak_resident_bytes", peak_resident_bytes());
-    json.member("load_s", report.load_s).member("total_s", report.total_s);
+    put_times(json, report.run);
     json.key("frames").begin_list();
     for (const StereoFrameReport& frame : report.frames)
         put_frame(json, frame);

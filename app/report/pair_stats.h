@@ -7,9 +7,8 @@
 #include <vector>
 
 #include "app/pair/pair.h"
-#include "app/scene/build.h"
+#include "app/report/run_stats.h"
 #include "app/scene/stereo_settings.h"
-#include "core/isa.h"
 
 namespace obscura {
 
@@ -38,12 +37,9 @@ struct StereoFrameReport {
 };
 
 struct StereoReport {
-    std::string scene, layout;
+    RunReport run;  ///< width and height: of one eye's picture
+    std::string layout;
     bool preview = false;
-    Exec exec;
-    int width = 0, height = 0, samples = 0;  ///< of one eye's picture
-    std::int64_t limit_mib = 0;
-    double load_s = 0, total_s = 0;
     std::vector<StereoFrameReport> frames;
 };
 

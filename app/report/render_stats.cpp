@@ -1,18 +1,13 @@
 #include "app/report/render_stats.h"
 
-#include <sys/resource.h>
-
-#include "app/report/json_writer.h"
-#include "app/report/program_version.h"
 #include "app/scene/aov.h"
-#include "core/parallel.h"
 
 namespace obscura {
 namespace {
 
 void put_memory(JsonWriter& json, const RenderReport& report) {
     json.key("memory").begin_object();
-    json.member("limit_bytes", report.limit_mib << 20);
+    json.member("limit_bytes", report.run.limit_mib << 20);
     json.member("estimate_bytes", report.memory.total());
     json.member("meshes_bytes", report.memory.meshes);
     json.member("textures_bytes", report.memory.textures);
@@ -93,21 +88,13 @@ void put_file(JsonWriter& json, const WrittenFile& file) {
 
 }  // namespace
 
-std::int64_t peak_resident_bytes() {
-    struct rusage usage {};
-    ::getrusage(RUSAGE_SELF, &usage);
-    return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
 std::string stats_json(const RenderReport& report) {
     JsonWriter json;
     json.begin_object();
-    json.member("schema", 1).member("program", program_version()).member("scene", report.scene);
-    json.member("isa", isa_name(report.exec.isa));
-    json.member("threads", report.exec.threads > 0 ? report.exec.threads : hardware_threads());
-    json.member("width_px", report.width).member("height_px", report.height);
-    json.member("samples", report.samples);
-    json.member("load_s", report.load_s).member("total_s", report.total_s);
+    put_origin(json, report.run);
+    put_execution(json, report.run.exec);
+    put_picture_size(json, report.run);
+    put_times(json, report.run);
     put_memory(json, report);
     json.key("frames").begin_list();
     for (const FrameReport& frame : report.frames) {

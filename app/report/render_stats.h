@@ -9,8 +9,8 @@
 #include "app/frame/frame.h"
 #include "app/frame/memory.h"
 #include "app/report/picture_file.h"
+#include "app/report/run_stats.h"
 #include "app/scene/scene.h"
-#include "core/isa.h"
 
 namespace obscura {
 
@@ -29,17 +29,10 @@ struct FrameReport {
 };
 
 struct RenderReport {
-    std::string scene;
-    Exec exec;
-    int width = 0, height = 0, samples = 0;  ///< of the pictures that are written
+    RunReport run;
     MemoryEstimate memory;
-    std::int64_t limit_mib = 0;
-    double load_s = 0, total_s = 0;
     std::vector<FrameReport> frames;
 };
-
-/// Most memory this process ever held, bytes.
-std::int64_t peak_resident_bytes();
 
 std::string stats_json(const RenderReport& report);
 

@@ -212,8 +212,7 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     b.scene.limits = b.limits;
     b.scene.render = render_settings_of(document);
     b.scene.sky = sky_of(document);
-    for (const SceneTable* output : subtables(document.root, "output"))
-        b.scene.outputs.push_back(output_of(*output));
+    b.scene.outputs = outputs_of(document);
 
     add_materials(b);
     for (const SceneTable* mesh : subtables(document.root, "mesh"))

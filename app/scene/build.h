@@ -22,7 +22,7 @@ ShadowSettings shadow_settings_of(const SceneTable& shadow);
 /// Without its texture.
 Material material_of(const std::string& name, const SceneTable& material);
 Sky sky_of(const SceneDocument& document);
-Output output_of(const SceneTable& output);
+std::vector<Output> outputs_of(const SceneDocument& document);
 Limits limits_of(const SceneDocument& document);
 RenderSettings render_settings_of(const SceneDocument& document);
 /// What maps a mesh, or an instance of one, to its place.

@@ -98,8 +98,11 @@ RenderSettings render_settings_of(const SceneDocument& document) {
     return read(render_rows(), subtable(document.root, "render"));
 }
 
-Output output_of(const SceneTable& output) {
-    return read(output_rows(), output);
+std::vector<Output> outputs_of(const SceneDocument& document) {
+    std::vector<Output> outputs;
+    for (const SceneTable* output : subtables(document.root, "output"))
+        outputs.push_back(read(output_rows(), *output));
+    return outputs;
 }
 
 Limits limits_of(const SceneDocument& document) {

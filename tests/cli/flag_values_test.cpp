@@ -47,7 +47,7 @@ TEST(FlagValues, SizesCropsAndPixels) {
     EXPECT_EQ(size_value("--size", "960x540").height, 540);
     for (const char* wrong : {"960", "960x", "x540", "0x5", "5x-1", "5x5x5", "2000000x1"})
         EXPECT_THROW(size_value("--size", wrong), UsageError) << wrong;
-    EXPECT_EQ(crop_value("--crop", "1,2,30,40", 30, 40), (PixelRect{1, 2, 30, 40}));
+    EXPECT_EQ(crop_value("--crop", "1,2,30,40", 30, 40), (Region{1, 2, 29, 38}));
     for (const char* wrong : {"1,2,3", "1,2,1,4", "1,4,3,4", "-1,0,3,4", "0,0,31,40", "0,0,30,41", "a,0,1,1"})
         EXPECT_THROW(crop_value("--crop", wrong, 30, 40), UsageError) << wrong;
     EXPECT_EQ(pixel_value("--pixel", "29,39", 30, 40).y, 39);

@@ -1,4 +1,4 @@
-// Flags of `obscura bench`.
+// The program `obscura-bench`, which `obscura bench` becomes.
 
 #include <fmt/format.h>
 
@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/commands.h"
 #include "app/cli/flags.h"
+#include "app/cli/run_program.h"
 #include "app/scene/schema.h"
 #include "bench/benches.h"
 #include "core/error.h"
 
 namespace obscura {
+namespace {
 
 int run_bench(const Arguments& arguments) {
     Flags flags("bench [options] NAME",
@@ -56,4 +57,9 @@ int run_bench(const Arguments& arguments) {
     return bench->run(options);
 }
 
+}  // namespace
 }  // namespace obscura
+
+int main(int argc, char** argv) {
+    return obscura::run_program(argc, argv, obscura::run_bench);
+}

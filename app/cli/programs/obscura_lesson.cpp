@@ -1,12 +1,12 @@
-// Flags of `obscura lesson`.
+// The program `obscura-lesson`, which `obscura lesson` becomes.
 
 #include <fmt/format.h>
 
 #include <string>
 
-#include "app/cli/commands.h"
 #include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
+#include "app/cli/run_program.h"
 #include "app/report/output_plan.h"
 #include "core/error.h"
 #include "core/file_output.h"
@@ -24,8 +24,6 @@ std::string lesson_list() {
     }
     return list;
 }
-
-}  // namespace
 
 int run_lesson(const Arguments& arguments) {
     Flags flags("lesson [options] NUMBER",
@@ -54,4 +52,9 @@ int run_lesson(const Arguments& arguments) {
     return 0;
 }
 
+}  // namespace
 }  // namespace obscura
+
+int main(int argc, char** argv) {
+    return obscura::run_program(argc, argv, obscura::run_lesson);
+}

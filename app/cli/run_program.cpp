@@ -1,6 +1,5 @@
-// The command line: finds the command, runs it, turns errors into messages and exit codes.
+#include "app/cli/run_program.h"
 
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,73 +9,15 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <vector>
+#include <system_error>
 
-#include "app/cli/commands.h"
 #include "app/cli/progress.h"
 #include "app/cli/signals.h"
-#include "app/report/program_version.h"
-#include "app/scene/schema.h"
 #include "core/error.h"
 #include "core/file_output.h"
 
 namespace obscura {
 namespace {
-
-struct Command {
-    const char* name;
-    const char* summary;
-    int (*run)(const Arguments&);
-};
-
-constexpr Command commands[] = {
-    {"render", "Render a scene file to pictures", run_render},
-    {"check", "Validate a scene and say what rendering it would take", run_check},
-    {"dump", "Print the effective scene, or the description of the format", run_dump},
-    {"info", "Print what a mesh file holds", run_info},
-    {"diff", "Compare two pictures", run_diff},
-    {"diffraction", "Compute the light behind an aperture: far field, near field, colours", run_diffraction},
-    {"stereo", "Render a scene for two eyes, with edited disparity", run_stereo},
-    {"bench", "Measure our methods beside their peers", run_bench},
-    {"lesson", "Draw the picture of a lesson", run_lesson},
-    {"version", "Print version, instruction sets and libraries", run_version},
-};
-
-std::string short_help() {
-    std::string out =
-        program_version() + ": renders scene files on the CPU\n\nUsage: obscura COMMAND [options]\n\n";
-    for (const Command& c : commands)
-        out += fmt::format("  {:<12}{}\n", c.name, c.summary);
-    return out + "\n'obscura COMMAND --help' explains a command.\n";
-}
-
-std::vector<std::string> command_names() {
-    std::vector<std::string> names;
-    for (const Command& c : commands)
-        names.emplace_back(c.name);
-    return names;
-}
-
-int run(const Arguments& arguments) {
-    if (arguments.empty()) {
-        fmt::print(stderr, "{}", short_help());
-        return static_cast<int>(ExitCode::usage);
-    }
-    const std::string& name = arguments.front();
-    if (name == "-h" || name == "--help") {
-        fmt::print("{}", short_help());
-        return 0;
-    }
-    const Arguments rest(arguments.begin() + 1, arguments.end());
-    if (name == "--version") return run_version(rest);
-    const auto command = std::find_if(std::begin(commands), std::end(commands),
-                                      [&](const Command& c) { return c.name == name; });
-    if (command == std::end(commands)) {
-        throw UsageError(
-            fmt::format("unknown command '{}'{} (see 'obscura --help')", name, hint(name, command_names())));
-    }
-    return command->run(rest);
-}
 
 /// Prints the message and returns the code.
 int report(ExitCode code, const std::string& message) {
@@ -126,7 +67,7 @@ int flush_output(int code) {
     return report(ExitCode::output, "standard output: cannot be written");
 }
 
-int run_and_report(const Arguments& arguments) {
+int run_and_report(RunCommand run, const Arguments& arguments) {
     try {
         return run(arguments);
     } catch (const Interrupted& e) {
@@ -151,11 +92,12 @@ int run_and_report(const Arguments& arguments) {
 }
 
 }  // namespace
-}  // namespace obscura
 
-int main(int argc, char** argv) {
-    obscura::install_signal_handlers();
-    std::set_terminate(obscura::on_terminate);
-    const obscura::Arguments arguments(argv + std::min(argc, 1), argv + argc);
-    return obscura::flush_output(obscura::run_and_report(arguments));
+int run_program(int argc, char** argv, RunCommand run) {
+    install_signal_handlers();
+    std::set_terminate(on_terminate);
+    const Arguments arguments(argv + std::min(argc, 1), argv + argc);
+    return flush_output(run_and_report(run, arguments));
 }
+
+}  // namespace obscura

@@ -1,0 +1,44 @@
+#include "app/cli/render_plan.h"
+
+#include "app/scene/build.h"
+
+namespace obscura {
+namespace {
+
+/// The channels that the files need.
+void request_channels(const std::vector<PlannedOutput>& outputs, FrameOptions& options) {
+    for (const PlannedOutput& output : outputs) {
+        options.depth |= output.aov == Aov::depth;
+        options.normal |= output.aov == Aov::normal;
+        options.albedo |= output.aov == Aov::albedo;
+        options.object |= output.aov == Aov::object;
+        options.shadow |= output.aov == Aov::shadow;
+    }
+}
+
+}  // namespace
+
+RenderPlan plan_render(const RenderOptions& options) {
+    RenderPlan plan;
+    plan.document = read_scene(options.run.scene, options.run.overrides);
+    plan.render = render_settings_of(plan.document);
+    plan.frames = frames_of(options.run, plan.document);
+    const auto [width, height] = std::pair{plan.render.width, plan.render.height};
+    if (!options.crop.empty()) plan.frame_options.crop = crop_value("--crop", options.crop, width, height);
+    if (!options.pixel.empty()) plan.pixel = pixel_value("--pixel", options.pixel, width, height);
+    plan.outputs = plan_outputs({options.output, options.aovs, options.aov_kind,
+                                 options.run.scene.stem().string(), plan.frames.size() > 1},
+                                outputs_of(plan.document));
+    request_channels(plan.outputs, plan.frame_options);
+    return plan;
+}
+
+void check_outputs(const RenderPlan& plan, const SceneRun& run) {
+    for (const int frame : plan.frames) {
+        for (const PlannedOutput& output : plan.outputs)
+            check_writable(output_path(output, frame), run.existing());
+    }
+    if (!run.stats_json.empty()) check_writable(run.stats_json, run.existing());
+}
+
+}  // namespace obscura
