@@ -1,10 +1,11 @@
 # The house: rooms and the arrows between them.
 #
-# obscura_room(ROOM SOURCES... DEPS rooms... LIBS libraries...)
+# obscura_room(ROOM [COLD] SOURCES... DEPS rooms... LIBS libraries...)
 #   makes the static library of a room: obscura_core of core, obscura_app_scene of app/scene. Its headers are
 #   reached as "ROOM/file.h" through a folder of the build tree that holds nothing but this room, so a file can
 #   include only its own room and those its room links to: the link graph is the architecture, and a wrong include
 #   does not build. A room inside another's folder has walls too: neither reaches the other without an arrow.
+#   COLD: nothing in it runs often, so a release is made with -O1, which compiles faster. Pixels are the same.
 #
 # add_simd_kernels(ROOM files...)
 #   builds each kernel file once per instruction set, in a namespace of its own (see core/simd.h).
@@ -68,14 +69,21 @@ function(obscura_window room out)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${window}/${room} SYMBOLIC)
 endfunction()
 
+function(obscura_cold target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 function(obscura_room room)
-  cmake_parse_arguments(ARG "" "" "DEPS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "DEPS;LIBS" ${ARGN})
   obscura_libraries(library ${room})
   obscura_libraries(below ${ARG_DEPS})
   obscura_window(${room} window)
   add_library(${library} STATIC ${ARG_UNPARSED_ARGUMENTS})
   target_include_directories(${library} PUBLIC ${window})
   target_link_libraries(${library} PUBLIC obscura_flags ${below} PRIVATE ${ARG_LIBS})
+  if(ARG_COLD)
+    obscura_cold(${library})
+  endif()
   obscura_precompile(${library} room)
   set_property(GLOBAL APPEND PROPERTY OBSCURA_ROOMS ${room})
 endfunction()

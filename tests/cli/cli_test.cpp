@@ -234,6 +234,44 @@ TEST(Cli, ClosedPipesEndQuietly) {
     EXPECT_EQ(run.err, "");
 }
 
+/// A copy of the program alone in a folder of its own.
+Program lonely(const Folder& folder, std::vector<std::string> arguments, const std::string& path) {
+    const std::filesystem::path copy = folder / "obscura";
+    if (!std::filesystem::exists(copy)) std::filesystem::copy_file(OBSCURA_BINARY, copy);
+    return Program(std::move(arguments), copy.string(), {"PATH=" + path});
+}
+
+TEST(Cli, NeighboursAreFoundBesideTheProgramAndOnPath) {
+    const Folder folder;
+    const std::filesystem::path home = std::filesystem::path(OBSCURA_BINARY).parent_path();
+    const std::string help = Program({"lesson", "--help"}).run().out;
+    ASSERT_NE(help, "");
+
+    const Outcome on_path = lonely(folder, {"lesson", "--help"}, home.string()).run();
+    EXPECT_EQ(on_path.code, 0) << on_path.err;
+    EXPECT_EQ(on_path.out, help);
+
+    // A link to the program is the program: what counts is beside the file behind it.
+    std::filesystem::create_symlink(OBSCURA_BINARY, folder / "link");
+    const Outcome linked = Program({"lesson", "--help"}, (folder / "link").string(), {"PATH="}).run();
+    EXPECT_EQ(linked.code, 0) << linked.err;
+    EXPECT_EQ(linked.out, help);
+}
+
+TEST(Cli, AbsentNeighboursAreMistakesThatSayHowToBuildThem) {
+    const Folder folder;
+    for (const std::string command : {"bench", "lesson"}) {
+        const Outcome run = lonely(folder, {command, "--help"}, folder.path.string()).run();
+        EXPECT_EQ(run.code, 2) << command;
+        EXPECT_EQ(run.out, "");
+        EXPECT_EQ(run.err,
+                  "obscura: error: 'obscura " + command + "' is a program of its own, obscura-" + command +
+                      ", which cannot be started from the folder of this one or from PATH: No such file "
+                      "or directory; in the source folder './obscura " +
+                      command + "' builds it\n");
+    }
+}
+
 TEST(Cli, LessonsAreDrawnAndListed) {
     const Folder folder;
     EXPECT_NE(run_in(folder, {"lesson", "--help"}).out.find("\n  2  "), std::string::npos);

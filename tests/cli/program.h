@@ -93,6 +93,7 @@ class Folder {
 class Program {
   public:
     std::filesystem::path folder = ".";    ///< where it runs
+    std::string binary;                    ///< what runs
     std::string out_target;                ///< file or device for standard output instead of capturing it
     bool out_closed = false;               ///< starts without a standard output
     bool err_on_terminal = false;          ///< standard error is a terminal
@@ -100,7 +101,11 @@ class Program {
     std::optional<rlim_t> memory_bytes;    ///< ulimit -v
     std::vector<std::string> environment;  ///< NAME=value on top of ours
 
-    explicit Program(std::vector<std::string> arguments_) : arguments(std::move(arguments_)) {}
+    explicit Program(std::vector<std::string> arguments_, std::string binary_ = OBSCURA_BINARY,
+                     std::vector<std::string> environment_ = {})
+        : binary(std::move(binary_)),
+          environment(std::move(environment_)),
+          arguments(std::move(arguments_)) {}
 
     /// Starts the process. Its streams go to files in a folder of their own.
     void start() {
@@ -184,11 +189,11 @@ class Program {
             const std::size_t equals = variable.find('=');
             ::setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
         }
-        std::vector<char*> argv{const_cast<char*>(OBSCURA_BINARY)};
+        std::vector<char*> argv{const_cast<char*>(binary.c_str())};
         for (const std::string& a : arguments)
             argv.push_back(const_cast<char*>(a.c_str()));
         argv.push_back(nullptr);
-        ::execv(OBSCURA_BINARY, argv.data());
+        ::execv(binary.c_str(), argv.data());
         ::_exit(123);
     }
 
