@@ -17,8 +17,8 @@ std::int64_t shadow_map_bytes(const SceneLight& light);
 /// The same of what a picture of this size has built of it (scope "frame").
 std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& render);
 
-/// Squares (8 x 8 texels, or coarser ones) that a picture's lookups read of one light, expected: 1.5, 4 and
-/// 10 per pixel at 1, 4 and 16 samples, which share more of them the closer they lie. No more than the map
+/// Squares (8 x 8 texels, or coarser ones) that a picture's lookups read of one light, expected: 1.2, 3 and
+/// 8 per pixel at 1, 4 and 16 samples, which share more of them the closer they lie. No more than the map
 /// has, nor than a collection may hold.
 std::int64_t expected_squares(const ShadowSettings& shadow, std::int64_t maps, const RenderSettings& render);
 
