@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "filters/convolution.h"
 #include "optics/glare_bloom.h"
+#include "optics/psf_memory.h"
 
 namespace obscura {
 namespace {
@@ -274,6 +275,23 @@ GlareCost most_glare(int width, int height, int kernel_side, const GlareParams& 
     const std::int64_t lists = pixels * std::int64_t{2 * sizeof(Source) + sizeof(float)};
     const std::int64_t taps = std::int64_t{kernel_side} * kernel_side * std::int64_t{3 * sizeof(float)};
     return {3 * std::min(plan.fft_ms, plan.splat_ms), lists + result + taps + plan.fft_bytes};
+}
+
+std::int64_t spread_glare_bytes(std::int64_t sources, int width, int height, int kernel_side,
+                                const GlareParams& params) {
+    if (sources == 0) return 0;
+    // Lists may grow to twice their size; then one channel of a kernel's sources and of the kernel at a time.
+    const std::int64_t lists = sources * std::int64_t{2 * sizeof(Source)};
+    const int s = params.bloom_scale;
+    const int w = s == 1 ? width : width / s + 3, h = s == 1 ? height : height / s + 3;
+    const int side = s == 1 ? kernel_side : 2 * (kernel_side / 2 / s + 1) + 1;
+    const std::int64_t planes =
+        (std::int64_t{width} * height + (s == 1 ? 0 : std::int64_t{w} * h)) * std::int64_t{sizeof(float)};
+    const std::int64_t taps =
+        std::int64_t{kernel_side} * kernel_side * std::int64_t{sizeof(float)} * (s == 1 ? 1 : 2);
+    const ConvolutionPlan plan = plan_convolution(sources, w, h, side, side);
+    const std::int64_t result = std::int64_t{w + side - 1} * (h + side - 1) * std::int64_t{sizeof(float)};
+    return lists + planes + taps + (plan.fft ? plan.fft_bytes : result);
 }
 
 Image<Vec3f> unit_kernel(const Image<Vec3f>& kernel) {

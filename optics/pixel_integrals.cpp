@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "optics/psf_memory.h"
 
 namespace obscura {
 
@@ -202,6 +203,16 @@ PixelIntegralWork pixel_integral_work(double cell, int radius_px, const std::vec
     const Cells cells = cells_of(cell, radius_px, lights);
     return {std::int64_t{cells.columns} * cells.height(),
             {cells.columns_per_band(), cells.height(), 0, -cells.rows * cell, cell, cell}};
+}
+
+std::int64_t pixel_integral_bytes(const PixelIntegralWork& work, int radius_px, std::size_t lights) {
+    const std::int64_t side = 2 * std::int64_t{radius_px} + 1;
+    const std::int64_t table =
+        (std::int64_t{work.band.width} + 1) * (work.band.height + 1) * std::int64_t{sizeof(double)};
+    const std::int64_t passage =
+        (side + 1) * std::int64_t{sizeof(Place)} + side * std::int64_t{sizeof(double)};
+    return table + static_cast<std::int64_t>(lights) * passage +
+           side * (radius_px + 1) * std::int64_t{sizeof(Vec3d)};
 }
 
 double pixel_integral_cost_ms(const PixelIntegralWork& work, int radius_px, std::size_t lights) {

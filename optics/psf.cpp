@@ -16,6 +16,7 @@
 #include "optics/field/sinc.h"
 #include "optics/outline_coverage.h"
 #include "optics/pixel_integrals.h"
+#include "optics/psf_memory.h"
 
 namespace obscura {
 
@@ -43,12 +44,19 @@ double cycles_per_pixel(const PsfParams& params, double wavelength_nm) {
     return params.pixel_m / (wavelength_nm * 1e-9 * params.f_number);
 }
 
-/// The aperture in the form that serves the frequencies wanted.
+/// What the frequencies wanted ask of an aperture.
+struct PupilForm {
+    bool closed_form = false;  ///< its outline's few straight edges serve as they are
+    bool coverage = false;     ///< else: what is transformed is the exact coverage of a known outline
+    int finer = 1;             ///< so many texels for each of the aperture's, along both axes
+};
+
+/// The aperture in that form.
 struct Pupil {
     Aperture aperture;
     FarFieldParams far_field;
-    bool coverage = false;  ///< what is transformed is the exact coverage of a known outline
-    double power = 0;       ///< Parseval's total
+    bool coverage = false;
+    double power = 0;  ///< Parseval's total
 };
 
 /// Few corners, none outside the mask, where the opening is cut off.
@@ -65,29 +73,35 @@ bool has_closed_form(const Aperture& aperture) {
 
 /// Outlines of few straight edges: their closed form, exact at every frequency. Other outlines: a mask fine
 /// enough. Only a mask: that.
-Pupil pupil_for(const Aperture& aperture, double cycles_per_texel) {
-    Pupil pupil{aperture, {}, !aperture.outline.loops.empty(), 0};
-    if (has_closed_form(aperture)) {
+PupilForm form_for(const Aperture& aperture, double cycles_per_texel) {
+    PupilForm form;
+    form.closed_form = has_closed_form(aperture);
+    form.coverage = !form.closed_form && !aperture.outline.loops.empty();
+    if (!form.coverage) return form;
+    const int side = std::max(aperture.mask.width, aperture.mask.height);
+    while (cycles_per_texel / form.finer > faithful_cycles_per_texel && side * form.finer * 2 <= finest_mask)
+        form.finer *= 2;
+    return form;
+}
+
+Pupil pupil_of(const Aperture& aperture, const PupilForm& form) {
+    Pupil pupil{aperture, {}, form.coverage, 0};
+    if (form.closed_form) {
         pupil.far_field.method = FarFieldMethod::polygon;
         pupil.power = open_area(aperture.mask.view());
-        pupil.coverage = false;
         return pupil;
     }
-    const int side = std::max(aperture.mask.width, aperture.mask.height);
-    int finer = 1;
-    while (cycles_per_texel / finer > faithful_cycles_per_texel && side * finer * 2 <= finest_mask)
-        finer *= 2;
-    if (pupil.coverage && finer > 1) {
-        pupil.aperture.pitch_m /= finer;
+    if (form.finer > 1) {
+        pupil.aperture.pitch_m /= form.finer;
         for (auto& loop : pupil.aperture.outline.loops) {
             for (Vec2d& p : loop)
-                p = p * static_cast<double>(finer);
+                p = p * static_cast<double>(form.finer);
         }
-        pupil.aperture.mask =
-            coverage_of(pupil.aperture.outline, aperture.mask.width * finer, aperture.mask.height * finer);
+        pupil.aperture.mask = coverage_of(pupil.aperture.outline, aperture.mask.width * form.finer,
+                                          aperture.mask.height * form.finer);
     }
     const auto mask = pupil.aperture.mask.view();
-    pupil.power = pupil.coverage ? open_area(mask) : transmitted_power(mask);
+    pupil.power = form.coverage ? open_area(mask) : transmitted_power(mask);
     return pupil;
 }
 
@@ -129,8 +143,8 @@ struct Fading {
     int radius(int most) const { return end_px < most ? static_cast<int>(std::ceil(end_px)) : most; }
 };
 
-Fading fading_of(const Pupil& pupil, double pixel) {
-    const double end = pupil.far_field.method == FarFieldMethod::polygon ? 1e9 : 0.5 / pixel;
+Fading fading_of(const PupilForm& form, double pixel) {
+    const double end = form.closed_form ? 1e9 : 0.5 / pixel;
     return {0.6 * end, end};
 }
 
@@ -156,19 +170,19 @@ int wavelength_count(const Aperture& aperture, const PsfParams& params, double t
     return spectral_rate(params.light, fringes, params.tolerance).count;
 }
 
-/// Side of the cells that sample the power, in cycles per texel: half a fringe of the aperture's extent, or a
-/// share of a pixel where that is less; for masks a power of two, which fast Fourier transforms serve.
-double cell_for(const Pupil& pupil, double pixel, double tolerance) {
-    const OpenExtent extent = open_extent(pupil.aperture.mask.view());
+/// Side of the cells that sample the power of a mask this wide, in cycles per texel: half a fringe of the
+/// aperture's extent, or a share of a pixel where that is less; for masks a power of two, which fast Fourier
+/// transforms serve.
+double cell_for(const PupilForm& form, const OpenExtent& extent, int side, double pixel, double tolerance) {
     const double fringe = 1.0 / std::max(extent.width, extent.height);
     // Constant power over cells is wrong by 0.3 (cell / fringe)^2 of the peak at worst. Pixels of many
     // fringes need little more than one cell for each: the whole of |F|^2 is exact from one on.
     const double finer = std::max(1.0, std::sqrt(0.01 / tolerance));
     const double share = std::max(pixel / 8, std::min(pixel / 4, fringe / 8)) / finer;
     const double most = std::min(share, std::clamp(pixel / (16 * finer), fringe / 2, 0.95 * fringe));
-    if (pupil.far_field.method == FarFieldMethod::polygon) return most;
+    if (form.closed_form) return most;
     double cell = 1;
-    while (cell > most || cell * std::max(pupil.aperture.mask.width, pupil.aperture.mask.height) > 1)
+    while (cell > most || cell * side > 1)
         cell /= 2;
     return cell;
 }
@@ -197,18 +211,52 @@ Image<Vec3f> balanced_kernel(Image<Vec3d> xyz, const LightSpectrum& light) {
     return kernel;
 }
 
-}  // namespace
+/// What wavelengths there are, and how large pixels are for them before the pupil's texels are known.
+struct Wavelengths {
+    std::vector<SpectralSample> samples;
+    double reference_cycles = 0;  ///< per pixel, in cycles of the aperture's width
+    double highest = 0;           ///< at the kernel's edge, cycles per texel of the aperture
+};
 
-namespace {
+Wavelengths wavelengths_of(const Aperture& aperture, const PsfParams& params) {
+    Wavelengths w;
+    const double diameter = aperture.mask.width;
+    w.reference_cycles = cycles_per_pixel(params, reference_nm);
+    w.samples =
+        spectral_samples(params.light, wavelength_count(aperture, params, w.reference_cycles / diameter));
+    w.highest =
+        (params.radius_px + 0.5) * cycles_per_pixel(params, w.samples.front().wavelength_nm) / diameter;
+    return w;
+}
 
-/// All that is decided before anything is computed.
-struct Job {
-    Pupil pupil;
+/// How the power of a pupil of this many texels is sampled and gathered.
+struct Sampling {
     double cell = 0;  ///< cycles per texel of the pupil
     std::vector<PixelLight> lights;
     Fading fading;
     int lit_radius = 0;
     PixelIntegralWork work;
+};
+
+Sampling sampling_of(const Wavelengths& wavelengths, const PupilForm& form, const OpenExtent& extent,
+                     int width, int height, double power, const PsfParams& params) {
+    Sampling s;
+    s.cell = cell_for(form, extent, std::max(width, height), wavelengths.reference_cycles / width,
+                      params.tolerance);
+    for (const SpectralSample& sample : wavelengths.samples)
+        s.lights.push_back(
+            {cycles_per_pixel(params, sample.wavelength_nm) / width, sample.xyz * (1 / power)});
+    const double blue_nm = std::max(wavelengths.samples.front().wavelength_nm, shortest_of_weight_nm);
+    s.fading = fading_of(form, cycles_per_pixel(params, blue_nm) / width);
+    s.lit_radius = s.fading.radius(params.radius_px);
+    s.work = pixel_integral_work(s.cell, s.lit_radius, s.lights);
+    return s;
+}
+
+/// All that is decided before anything is computed.
+struct Job {
+    Pupil pupil;
+    Sampling sampling;
     PsfPlan plan;
 };
 
@@ -220,38 +268,29 @@ double far_field_ms(const Pupil& pupil, const PixelIntegralWork& work) {
     return bands * plan_far_field(pupil.aperture, work.band, pupil.far_field).cost_ms;
 }
 
+void check_open(const Aperture& aperture) {
+    if (open_extent(aperture.mask.view()).width == 0) throw InputError("aperture", "lets no light through");
+}
+
 Job job_of(const Aperture& aperture, const PsfParams& params) {
     check_params(params);
-    const OpenExtent coarse = open_extent(aperture.mask.view());
-    if (coarse.width == 0) throw InputError("aperture", "lets no light through");
-
-    // Sizes: of a pixel in cycles per texel, per wavelength, and of the cells that sample the power.
+    check_open(aperture);
+    const Wavelengths wavelengths = wavelengths_of(aperture, params);
+    const PupilForm form = form_for(aperture, wavelengths.highest);
     Job job;
-    const double diameter = aperture.mask.width;
-    const double reference_cycles = cycles_per_pixel(params, reference_nm);
-    const int count = wavelength_count(aperture, params, reference_cycles / diameter);
-    const std::vector<SpectralSample> samples = spectral_samples(params.light, count);
-    const double highest =
-        (params.radius_px + 0.5) * cycles_per_pixel(params, samples.front().wavelength_nm) / diameter;
-    job.pupil = pupil_for(aperture, highest);
-    const double texels = job.pupil.aperture.mask.width;
-    job.cell = cell_for(job.pupil, reference_cycles / texels, params.tolerance);
-    for (const SpectralSample& sample : samples)
-        job.lights.push_back(
-            {cycles_per_pixel(params, sample.wavelength_nm) / texels, sample.xyz * (1 / job.pupil.power)});
-    const double blue_nm = std::max(samples.front().wavelength_nm, shortest_of_weight_nm);
-    job.fading = fading_of(job.pupil, cycles_per_pixel(params, blue_nm) / texels);
-    job.lit_radius = job.fading.radius(params.radius_px);
-
-    job.work = pixel_integral_work(job.cell, job.lit_radius, job.lights);
-    job.plan.wavelengths = static_cast<int>(samples.size());
-    job.plan.cycles_per_px = reference_cycles;
-    job.plan.highest_cycles_per_texel = highest * diameter / texels;
+    job.pupil = pupil_of(aperture, form);
+    const Image<float>& mask = job.pupil.aperture.mask;
+    job.sampling = sampling_of(wavelengths, form, open_extent(mask.view()), mask.width, mask.height,
+                               job.pupil.power, params);
+    const Sampling& s = job.sampling;
+    job.plan.wavelengths = static_cast<int>(wavelengths.samples.size());
+    job.plan.cycles_per_px = wavelengths.reference_cycles;
+    job.plan.highest_cycles_per_texel = wavelengths.highest * aperture.mask.width / mask.width;
     job.plan.method =
-        plan_far_field(job.pupil.aperture, centred_grid(64, 64, job.cell), job.pupil.far_field).method;
-    job.plan.frequencies = job.work.frequencies;
-    job.plan.cost_ms = far_field_ms(job.pupil, job.work) +
-                       pixel_integral_cost_ms(job.work, job.lit_radius, job.lights.size());
+        plan_far_field(job.pupil.aperture, centred_grid(64, 64, s.cell), job.pupil.far_field).method;
+    job.plan.frequencies = s.work.frequencies;
+    job.plan.cost_ms =
+        far_field_ms(job.pupil, s.work) + pixel_integral_cost_ms(s.work, s.lit_radius, s.lights.size());
     return job;
 }
 
@@ -266,17 +305,50 @@ Psf far_field_psf(const Aperture& aperture, const PsfParams& params, const Exec&
     const Job job = job_of(aperture, params);
     std::int64_t done = 0;
     const auto power = [&](const FrequencyGrid& grid) {
-        if (progress) progress(static_cast<double>(done) / static_cast<double>(job.work.frequencies));
+        if (progress)
+            progress(static_cast<double>(done) / static_cast<double>(job.sampling.work.frequencies));
         done += std::int64_t{grid.width} * grid.height;
         return pupil_power(job.pupil, grid, exec);
     };
-    Image<Vec3d> xyz = faded(integrate_over_pixels(power, job.cell, job.lit_radius, job.lights, exec),
-                             job.fading, params.radius_px);
+    const Sampling& s = job.sampling;
+    Image<Vec3d> xyz =
+        faded(integrate_over_pixels(power, s.cell, s.lit_radius, s.lights, exec), s.fading, params.radius_px);
     Psf psf;
     psf.plan = job.plan;
     psf.captured = sum_of(xyz).y;
     psf.kernel = balanced_kernel(std::move(xyz), params.light);
     return psf;
+}
+
+std::int64_t far_field_psf_bytes(const Aperture& aperture, const PsfParams& params) {
+    check_params(params);
+    check_open(aperture);
+    const Wavelengths wavelengths = wavelengths_of(aperture, params);
+    const PupilForm form = form_for(aperture, wavelengths.highest);
+    const int width = aperture.mask.width * form.finer, height = aperture.mask.height * form.finer;
+    // A finer mask is open no further out than the texels that it divides.
+    OpenExtent extent = open_extent(aperture.mask.view());
+    extent.width *= form.finer;
+    extent.height *= form.finer;
+    const Sampling s = sampling_of(wavelengths, form, extent, width, height, 1, params);
+
+    // The aperture and its copy, or a finer mask in the copy's place.
+    const auto texels = [](std::int64_t w, std::int64_t h) { return w * h * std::int64_t{sizeof(float)}; };
+    const std::int64_t masks = texels(aperture.mask.width, aperture.mask.height) + texels(width, height);
+    // Transforms of rasters keep every row's, complex; others some columns at a time.
+    const bool rasters = form.finer == 1 && !form.closed_form &&
+                         plan_far_field(aperture, s.work.band, {}).method == FarFieldMethod::raster_fft;
+    const std::int64_t rows = rasters ? 2 * texels(width, height) : 0;
+    // One after the other: the bands' power gathered into half a kernel; all of it; the kernel faded;
+    // balanced; and, by the caller, scaled.
+    const std::int64_t lit = 2 * s.lit_radius + 1, side = 2 * params.radius_px + 1;
+    const std::int64_t half = lit * (s.lit_radius + 1) * std::int64_t{sizeof(Vec3d)},
+                       whole = lit * lit * std::int64_t{sizeof(Vec3d)},
+                       faded_kernel = side * side * std::int64_t{sizeof(Vec3d)},
+                       kernel = side * side * std::int64_t{sizeof(Vec3f)};
+    const std::int64_t gathering = pixel_integral_bytes(s.work, s.lit_radius, s.lights.size()) +
+                                   texels(s.work.band.width, s.work.band.height) + rows;
+    return masks + std::max({gathering, half + whole, whole + faded_kernel, faded_kernel + 2 * kernel});
 }
 
 }  // namespace obscura

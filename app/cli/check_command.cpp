@@ -13,6 +13,7 @@
 #include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/scene_light.h"
+#include "app/frame/shadow_memory.h"
 #include "app/frame/shadow_text.h"
 #include "app/frame/shadows.h"
 #include "app/report/lens_text.h"
@@ -105,22 +106,21 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     return out;
 }
 
-/// Puts what "auto" means for the first frame in the lights' places.
-std::vector<std::optional<FoundResolution>> settle_resolutions(Scene& scene, const Exec& exec) {
+/// Finds what "auto" means for the first frame and puts it in the lights' places; refuses what rendering
+/// would refuse then.
+std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const Exec& exec) {
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const SceneLight& light) {
         return casts_shadows(light) && light.shadow.resolution == auto_resolution;
     });
     if (!any || scene.mesh.triangles.empty()) return found;
-    check_memory(estimate_memory(scene), scene.limits, "the depth image");
     FrameCache cache;
     FrameStats stats;
     prepare_scene(scene, exec, cache, stats);
     const TileScene tiles = prepare_tiles(scene, exec, cache);
     found = auto_resolutions(scene, tiles, exec);
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        if (found[i]) scene.lights[i].shadow.resolution = found[i]->resolution;
-    }
+    settle_resolutions(found, scene.lights);
+    check_memory(estimate_memory(scene), scene.limits, "the frame");
     return found;
 }
 
@@ -141,8 +141,7 @@ std::string mesh_text(const Scene& scene) {
     return out;
 }
 
-std::string memory_text(const Scene& scene) {
-    const MemoryEstimate e = estimate_memory(scene);
+std::string memory_text(const MemoryEstimate& e, const Scene& scene) {
     return fmt::format("memory    about {} of {} MiB: meshes {}, textures {}, shadow maps {}, frame {}\n",
                        size_text(e.total()), scene.limits.memory_mib, size_text(e.meshes),
                        size_text(e.textures), size_text(e.shadow_maps), size_text(e.frame));
@@ -156,14 +155,16 @@ std::string check_report(const CheckOptions& options) {
     Scene scene = load_scene(document, access);
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
-    const auto found = settle_resolutions(scene, Exec{});
+    // Before resolutions are found, as rendering tells it.
+    const MemoryEstimate memory = estimate_memory(scene);
+    const auto found = find_resolutions(scene, Exec{});
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         out += light_text(scene.lights[i], found[i], scene);
     out += lens_text(scene.optics, scene.render);
     if (document.root.has("stereo")) {
         out += stereo_text(stereo_settings(document, scene, scene_frames(document).first, access), scene);
     }
-    return out + mesh_text(scene) + memory_text(scene) + "ok\n";
+    return out + mesh_text(scene) + memory_text(memory, scene) + "ok\n";
 }
 
 int check_command(const CheckOptions& options) {

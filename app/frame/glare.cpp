@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/frame/glare_memory.h"
 #include "app/frame/lens.h"
 #include "app/frame/source_kernels.h"
 #include "core/stopwatch.h"
@@ -23,15 +24,15 @@ OpticsSettings of_the_kernel(OpticsSettings optics) {
     return optics;
 }
 
-bool anything_clips(ImageView<const Vec3f> radiance, double clip) {
+std::int64_t count_bright(ImageView<const Vec3f> radiance, double clip) {
+    std::int64_t bright = 0;
     for (int y = 0; y < radiance.height; ++y) {
         const Vec3f* row = radiance.row(y);
-        const bool bright = std::any_of(row, row + radiance.width, [=](const Vec3f& p) {
+        bright += std::count_if(row, row + radiance.width, [=](const Vec3f& p) {
             return static_cast<double>(std::max({p.x, p.y, p.z})) > clip;
         });
-        if (bright) return true;
     }
-    return false;
+    return bright;
 }
 
 struct Cancelled {};
@@ -73,7 +74,8 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
     const Stopwatch watch;
     GlareStats& stats = frame.stats.glare.emplace();
     const GlareParams params = glare_params(scene.optics, scene.render);
-    if (!anything_clips(frame.radiance.view(), params.clip)) {
+    const std::int64_t bright = count_bright(frame.radiance.view(), params.clip);
+    if (bright == 0) {
         // Without a kernel: none is needed to find that there is nothing to do.
         const Image<Vec3f> point(1, 1);
         GlareReport report;
@@ -82,6 +84,7 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
         stats.total_s = watch.seconds();
         return;
     }
+    check_bright_pixels(scene, bright);
     try {
         prepare_psf(scene, options, exec, kept, stats);
     } catch (const Cancelled&) {

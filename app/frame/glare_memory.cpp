@@ -1,94 +1,93 @@
 #include "app/frame/glare_memory.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/frame/hidden_lamps.h"
+#include "app/frame/lamp_pixels.h"
 #include "app/frame/lens.h"
+#include "app/frame/memory.h"
 #include "app/frame/source_kernels.h"
+#include "core/error.h"
+#include "optics/psf_memory.h"
 
 namespace obscura {
 namespace {
 
-// Those of optics/psf.cpp and optics/pixel_integrals.cpp.
-constexpr double shortest_m = 360e-9;
-constexpr std::int64_t finest_mask = 4096;
-constexpr double faithful_cycles_per_texel = 0.25;
-constexpr std::int64_t cells_per_band = std::int64_t{1} << 22;
-constexpr std::int64_t least_columns_per_band = 128;
-constexpr double most_rows = 371'000;  // of 2^36 frequencies
-
 constexpr std::int64_t real = sizeof(float);
+constexpr std::int64_t pixels_per_bright_one = 16;
 
-/// Width of a pixel in cycles of the pupil, at the shortest wavelength.
-double cycles_per_pixel(const OpticsSettings& optics, const RenderSettings& render) {
-    return pixel_m(optics, render) / (shortest_m * optics.f_number);
+std::int64_t kernel_bytes(const OpticsSettings& optics) {
+    const std::int64_t side = kernel_side(optics);
+    return side * side * std::int64_t{sizeof(Vec3f)};
 }
 
-std::int64_t mask_side(const OpticsSettings& optics) {
-    return optics.from_file ? std::max(optics.mask.width, optics.mask.height) : optics.mask_px;
-}
-
-/// Cells of power that are summed at a time. They are not narrower than a 16th of a pixel (less for fine
-/// tolerances) or, where pixels span many fringes, a quarter of a cycle of the pupil.
-std::int64_t band_cells(const OpticsSettings& optics, const RenderSettings& render) {
-    const double finer = std::max(1.0, std::sqrt(0.01 / optics.tolerance));
-    const double per_pixel = std::max(16 * finer, 4 * cycles_per_pixel(optics, render));
-    const double reach = (2.0 * optics.radius_px + 1) * per_pixel * 1.6 + 5;  // 550 nm / shortest
-    const auto rows = static_cast<std::int64_t>(std::min(reach, most_rows));
-    return std::min(std::max(cells_per_band, least_columns_per_band * rows) + rows, rows * (rows + 5) / 2);
-}
-
-/// A far field's pattern: masks and their spectra, power and its sums, colours in double, kernels in float.
-std::int64_t pattern_bytes(const OpticsSettings& optics, const RenderSettings& render) {
-    const std::int64_t side = kernel_side(optics), own = mask_side(optics),
-                       fine = finest_mask_side(optics, render);
-    const std::int64_t masks = 4 * own * own * real + 4 * fine * fine * real;
-    const std::int64_t cells = band_cells(optics, render) * std::int64_t{3 * sizeof(float) + sizeof(double)};
-    return masks + cells + side * side * std::int64_t{2 * (sizeof(Vec3d) + sizeof(Vec3f))};
+/// A far field's pattern; lamps partly hidden see a mask without an outline. Files that are not read yet
+/// count as nothing; a lens that is closed has no pattern, which is an error of its own where it is asked
+/// for.
+std::int64_t pattern_bytes(const OpticsSettings& optics, const RenderSettings& render, bool hidden) {
+    if (optics.from_file && optics.mask.pixels.empty()) return 0;
+    try {
+        Aperture aperture = lens_aperture(optics);
+        if (hidden) aperture.outline = {};
+        return far_field_psf_bytes(aperture, psf_params(optics, render));
+    } catch (const InputError&) {
+        return 0;
+    }
 }
 
 /// A near field's: nine samples a pixel, of one wavelength and of all, and tables along both axes.
 std::int64_t defocus_bytes(const OpticsSettings& optics) {
     if (!(optics.focus_m > 0)) return 0;
-    const std::int64_t side = kernel_side(optics), plane = 3 * side, mask = mask_side(optics) + 1;
+    const std::int64_t side = kernel_side(optics), plane = 3 * side;
+    const std::int64_t mask =
+        1 + (optics.from_file ? std::max(optics.mask.width, optics.mask.height) : optics.mask_px);
     const std::int64_t tables = 3 * plane * mask * 2 * real;
     return plane * plane * std::int64_t{sizeof(Vec3f) + sizeof(float)} + tables + 4 * mask * mask * real +
-           2 * side * side * std::int64_t{sizeof(Vec3f)};
-}
-
-/// Kernels that are kept until the light is spread.
-std::int64_t kernel_count(const OpticsSettings& optics, std::int64_t pixels, std::int64_t lamps) {
-    std::int64_t own = optics.focus_m > 0 ? optics.focus_steps : 0;
-    if (optics.visibility != PupilVisibility::open) own += lamps * optics.visibility_samples;
-    // The open lens's is kept for the next frame, too.
-    return 2 + std::min({own, pixels, static_cast<std::int64_t>(most_kernels) - 1});
+           2 * kernel_bytes(optics);
 }
 
 }  // namespace
 
-std::int64_t finest_mask_side(const OpticsSettings& optics, const RenderSettings& render) {
-    std::int64_t side = mask_side(optics);
-    if (optics.from_file) return side;
-    const double highest = (optics.radius_px + 0.5) * cycles_per_pixel(optics, render);
-    while (highest / static_cast<double>(side) > faithful_cycles_per_texel && 2 * side <= finest_mask)
-        side *= 2;
-    return side;
+std::int64_t expected_kernels(const OpticsSettings& optics, std::int64_t lamps) {
+    std::int64_t own = optics.focus_m > 0 ? optics.focus_steps : 0;
+    if (optics.visibility != PupilVisibility::open) own += (lamps + 3) / 4 * optics.visibility_samples;
+    // The open lens's is kept for the next frame, too.
+    return 2 + std::min(own, static_cast<std::int64_t>(most_kernels) - 1);
 }
 
-std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, std::int64_t lamps) {
+std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, std::int64_t lamps,
+                         std::optional<std::int64_t> bright_px) {
     if (!optics.enabled) return 0;
-    const std::int64_t side = kernel_side(optics), pixels = std::int64_t{render.width} * render.height;
-    std::int64_t kept = side * side * std::int64_t{sizeof(Vec3f)} * kernel_count(optics, pixels, lamps);
+    const std::int64_t pixels = std::int64_t{render.width} * render.height;
+    const std::int64_t bright = bright_px.value_or(pixels / pixels_per_bright_one);
+    // First the open lens's pattern is made; then those of sources with their own; then the light is spread.
+    const std::int64_t open = pattern_bytes(optics, render, false);
+    std::int64_t own = 0, lists = 0;
     if (wants_source_kernels(optics)) {
-        // Which kernel a pixel takes; points of lamps (lists may grow to twice their size), what they see.
-        kept += pixels * std::int64_t{sizeof(std::uint16_t)};
-        if (optics.visibility != PupilVisibility::open) kept += pixels * bytes_per_lamp_pixel;
+        // Depth and object of every pixel, which kernel it takes; points of lamps, what they see.
+        lists = pixels * std::int64_t{sizeof(float) + sizeof(std::uint32_t) + sizeof(std::uint16_t)};
+        if (optics.visibility != PupilVisibility::open) {
+            lists += bright * bytes_per_lamp_pixel;
+            own = pattern_bytes(optics, render, true);
+        }
     }
-    return kept + std::max({pattern_bytes(optics, render), defocus_bytes(optics),
-                            most_glare(render.width, render.height, kernel_side(optics),
-                                       glare_params(optics, render))
-                                .bytes});
+    // A mask out of a file is the scene's, too, and there once more while it is made square.
+    lists += 2 * static_cast<std::int64_t>(optics.mask.pixels.size()) * real;
+    const std::int64_t spread = spread_glare_bytes(bright, render.width, render.height, kernel_side(optics),
+                                                   glare_params(optics, render));
+    const std::int64_t kept = expected_kernels(optics, lamps) * kernel_bytes(optics) + lists;
+    return std::max(open + lists, kept + std::max({own, defocus_bytes(optics), spread}));
+}
+
+void check_bright_pixels(const Scene& scene, std::int64_t bright_px) {
+    check_memory(estimate_memory(scene, {.lights = {}, .bright_px = bright_px, .channels = {}}), scene.limits,
+                 "the frame's glare");
+}
+
+std::int64_t kernels_that_fit(const Scene& scene) {
+    const std::int64_t left = (scene.limits.memory_mib << 20) - estimate_memory(scene).total();
+    return expected_kernels(scene.optics, lamp_count(scene)) +
+           std::max<std::int64_t>(left, 0) / kernel_bytes(scene.optics);
 }
 
 }  // namespace obscura

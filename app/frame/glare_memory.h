@@ -1,20 +1,29 @@
 #pragma once
-// What patterns and glare hold at most, known before any of it is made.
+// What patterns and glare hold, known before any of it is made.
 
 #include <cstdint>
+#include <optional>
 
 #include "app/scene/scene.h"
 
 namespace obscura {
 
-/// Bytes beside the frame, from the scene's keys alone: kernels of the open lens, of lamps partly hidden
-/// (visibility_samples each) and out of focus (focus_steps), and the largest of what making a pattern, making
-/// a near field and spreading the light take while the kernels are kept. `lamps`: objects that clip by
-/// themselves (lamp_count()); 0 where they are not known yet, and then their kernels are not counted.
-std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, std::int64_t lamps);
+/// Bytes beside the frame, from the scene's keys: kernels of the open lens, of lamps partly hidden and out of
+/// focus (expected_kernels()), and the largest of what making a pattern, making a near field and spreading
+/// the light take while the kernels are kept. `lamps`: objects that clip by themselves (lamp_count()); 0
+/// where they are not known yet, and then their kernels are not counted. `bright_px`: pixels that glare;
+/// without a value a sixteenth of them all is expected.
+std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, std::int64_t lamps,
+                         std::optional<std::int64_t> bright_px);
 
-/// Side of the mask that a pattern is made of: outlines are drawn up to 4096 texels wide where the kernel's
-/// edge asks for it.
-std::int64_t finest_mask_side(const OpticsSettings& optics, const RenderSettings& render);
+/// Kernels that are kept until the light is spread: of every step of focus, and of a quarter of the lamps
+/// (few stand behind something) visibility_samples each.
+std::int64_t expected_kernels(const OpticsSettings& optics, std::int64_t lamps);
+
+/// Throws LimitError when a frame with so many bright pixels does not fit the scene's limits.
+void check_bright_pixels(const Scene& scene, std::int64_t bright_px);
+
+/// Kernels that a frame may keep: as many more than expected as the scene's limits leave memory for.
+std::int64_t kernels_that_fit(const Scene& scene);
 
 }  // namespace obscura

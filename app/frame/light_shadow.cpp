@@ -8,6 +8,7 @@
 #include "app/frame/shadow_text.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "hierarchy/build_memory.h"
 
 namespace obscura {
 namespace {
@@ -23,8 +24,7 @@ std::uint64_t top_bytes(const ShadowTree& tree) {
 /// Nodes that a tree may have for its construction to stay within `bytes`: held twice while threads' parts
 /// are joined, and once serialised.
 std::uint64_t most_nodes(std::int64_t bytes) {
-    constexpr std::int64_t bytes_per_node = 2 * std::int64_t{sizeof(MultiresNode)} + 8;
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / bytes_per_node);
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / node_construction_bytes);
 }
 
 MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,

@@ -104,7 +104,8 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     frame.stats = FrameStats{};
     frame.stats.triangles = static_cast<std::int64_t>(scene.mesh.triangles.size());
     frame.lens_offset_m = {};
-    const MemoryEstimate memory = estimate_memory(scene);
+    const MemoryEstimate memory =
+        estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = options});
     frame.stats.bytes = memory.total();
     check_memory(memory, scene.limits, "the frame");
     prepare_scene(scene, exec, cache, frame.stats);

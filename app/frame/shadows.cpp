@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
+#include "app/frame/memory.h"
 #include "app/frame/needed_texels.h"
 #include "app/frame/scene_light.h"
 #include "app/frame/shadow_cache.h"
+#include "app/frame/shadow_memory.h"
 #include "app/frame/shadow_resolution.h"
 #include "app/frame/shadow_text.h"
 #include "core/file_output.h"
@@ -53,9 +55,7 @@ bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey
           const std::vector<LightView>& views, LightShadow& shadow) {
     std::string notice;
     shadow.trees = load_shadow_cache(file, key, notice);
-    const auto serves = [](const ShadowTree& tree, const LightView& view) {
-        return tree.view == view;
-    };
+    const auto serves = [](const ShadowTree& tree, const LightView& view) { return tree.view == view; };
     if (!shadow.trees.empty() &&
         !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {
         shadow.trees.clear();
@@ -101,9 +101,18 @@ bool build_map(const Work& work, LightShadow& shadow) {
     return true;
 }
 
+/// Refuses resolutions that make the frame too large, before anything is built.
+void check_found(const Work& work, const std::vector<std::optional<FoundResolution>>& found) {
+    std::vector<SceneLight> lights = work.scene.lights;
+    if (settle_resolutions(found, lights))
+        check_memory(estimate_memory(work.scene, {.lights = lights, .bright_px = {}, .channels = {}}),
+                     work.scene.limits, "the frame");
+}
+
 /// Settles what each light's shadow shall be; those that an earlier frame made are marked kept.
 void plan_shadows(const Work& work) {
     const auto found = auto_resolutions(work.scene, work.pictures, work.exec);
+    check_found(work, found);
     std::vector<LightShadow>& shadows = work.cache.shadows;
     std::size_t used = 0;
     for (std::size_t i = 0; i < work.scene.lights.size(); ++i) {
@@ -217,6 +226,17 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
 
 bool casts_shadows(const SceneLight& light) {
     return sheds_light(light.light) && light.shadow.method != ShadowMethod::none;
+}
+
+bool settle_resolutions(const std::vector<std::optional<FoundResolution>>& found,
+                        std::vector<SceneLight>& lights) {
+    bool any = false;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        if (!found[i]) continue;
+        lights[i].shadow.resolution = found[i]->resolution;
+        any = true;
+    }
+    return any;
 }
 
 std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,

@@ -28,9 +28,14 @@ inline std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene&
     return auto_resolutions(scene, std::span(&tiles, 1), exec);
 }
 
+/// Puts what was found in the lights' places. False when nothing was.
+bool settle_resolutions(const std::vector<std::optional<FoundResolution>>& found,
+                        std::vector<SceneLight>& lights);
+
 /// Makes or keeps the shadows of every light and gives them to the lights of all `pictures`, which share
-/// them. Adds to `stats`. False when `cancel` was set before they were done. Throws LimitError when they take
-/// more memory than is left after `other_bytes`, and what shadow caches throw. What was built for a picture
+/// them. Adds to `stats`. False when `cancel` was set before they were done. Throws LimitError when
+/// resolutions that were found make the frame too large, or trees take more memory than is left after
+/// `other_bytes`, and what shadow caches throw. What was built for a picture
 /// (scope "frame") is kept while camera and size stay: where more than these decides what pictures show,
 /// forget_picture_shadows() first.
 bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,

@@ -16,13 +16,14 @@ namespace obscura {
 struct SourceKernels {
     std::vector<Image<Vec3f>> kernels;
     Image<std::uint16_t> choice;
+    std::size_t most = 65536;         ///< kernels, those that memory has room for
     std::int64_t hidden_sources = 0;  ///< pixels that see a lens partly hidden, or are out of focus
 };
 
 /// The most kernels that one frame's sources may choose from.
 constexpr std::size_t most_kernels = 65536;
 
-/// Its index. Throws LimitError when there are most_kernels already.
+/// Its index. Throws LimitError when there are most_kernels, or to.most, already.
 std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to);
 
 /// True when the scene asks for such kernels; they need the frame's depth (and object) channels.

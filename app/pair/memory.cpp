@@ -4,9 +4,8 @@
 
 #include "app/frame/tile.h"
 #include "app/pair/pair.h"
-#include "raster/map_vertex.h"
-#include "raster/setup.h"
-#include "raster/surface.h"
+#include "core/mesh_memory.h"
+#include "raster/setup_memory.h"
 
 namespace obscura {
 namespace {
@@ -31,21 +30,18 @@ std::int64_t expected_triangles(const Scene& scene) {
 }
 
 /// The moved mesh with its tables, both eyes' positions, setups and lists of tiles, and the mesh of the eye
-/// that is being set up. A mesh has no more than three vertices per triangle; most have about one.
-std::int64_t triangle_bytes(std::int64_t triangles, std::int64_t vertices) {
-    constexpr std::int64_t mesh_triangle = sizeof(Triangle) + 4 * sizeof(std::uint32_t),
-                           mesh_vertex = 2 * sizeof(Vec3f) + sizeof(Vec2f);
-    constexpr std::int64_t setup_triangle =
-        sizeof(TriangleRecord) + sizeof(DepthPlane) + 2 * sizeof(std::int32_t) + 8 * sizeof(std::uint32_t);
-    const std::int64_t per_triangle = 2 * (mesh_triangle + std::int64_t{sizeof(Plane)}) +
-                                      std::int64_t{sizeof(std::uint32_t)} + 2 * setup_triangle +
-                                      std::int64_t{sizeof(SurfaceTriangle)};
-    const std::int64_t per_vertex = 2 * mesh_vertex + std::int64_t{sizeof(float)} +
-                                    2 * (std::int64_t{sizeof(Vec3f)} + std::int64_t{sizeof(MapVertex)}) +
-                                    std::int64_t{sizeof(SurfaceVertex)};
+/// that is being set up. Every triangle has a plane of its own.
+std::int64_t moved_bytes(std::int64_t triangles, std::int64_t vertices, const RenderSettings& render) {
+    const MeshSize moved{vertices, triangles, triangles};
+    const std::int64_t eyes =
+        2 * (setup_bytes(moved) + bin_bytes(triangles, render.width, render.height, frame_tile_side) +
+             vertices * std::int64_t{sizeof(Vec3f)});
+    const std::int64_t sources = triangles * std::int64_t{sizeof(std::uint32_t)},
+                       changes = vertices * std::int64_t{sizeof(float)};
     // While triangles are cut: themselves, their edges and who uses these, points, what each misses.
     constexpr std::int64_t cutting = 200;
-    return triangles * (per_triangle + cutting) + vertices * per_vertex;
+    return 2 * mesh_bytes(moved) + surface_table_bytes(moved) + eyes + sources + changes +
+           triangles * cutting;
 }
 
 }  // namespace
@@ -69,7 +65,7 @@ std::int64_t stereo_bytes(const Scene& scene, const StereoSettings& settings, st
     const std::int64_t vertices = static_cast<std::int64_t>(scene.mesh.positions.size()) +
                                   std::max<std::int64_t>(left - own_triangles, 0);
     return map * (2 * view_bytes + 8) + solved * (2 * view_bytes + system_bytes + solver_bytes) + pictures +
-           triangle_bytes(left, vertices);
+           moved_bytes(left, vertices, render);
 }
 
 }  // namespace obscura

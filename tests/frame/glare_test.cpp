@@ -10,9 +10,11 @@
 
 #include "app/cli/check_command.h"
 #include "app/frame/glare_memory.h"
+#include "app/frame/hidden_lamps.h"
 #include "app/frame/lamp_pixels.h"
 #include "app/frame/lens.h"
 #include "app/frame/render_frame.h"
+#include "app/frame/source_kernels.h"
 #include "app/report/lens_text.h"
 #include "app/report/render_stats.h"
 #include "app/scene/build.h"
@@ -235,20 +237,25 @@ TEST(FrameGlare, MemoryIsPlannedBeforeTheWork) {
     EXPECT_GT(estimate_memory(wide).frame, with + (std::int64_t{1} << 30));
 }
 
-TEST(FrameGlare, MemoryCountsEveryKernelAndTheFinestMask) {
+TEST(FrameGlare, MemoryCountsKernelsAndTheFinestMask) {
     const std::int64_t kernel = 41 * 41 * 12;
-    const auto frame_bytes = [](const std::string& keys) {
-        return estimate_memory(scene_of(night(lens + keys))).frame;
-    };
     EXPECT_EQ(lamp_count(scene_of(night(lens))), 1);
     EXPECT_EQ(lamp_count(scene_of(night(std::string(lens) + "clip = 1000\n"))), 0);
-    EXPECT_GE(frame_bytes("visibility = \"exact\"\nvisibility_samples = 100\n"),
-              frame_bytes("") + 100 * kernel);
-    EXPECT_EQ(frame_bytes("visibility = \"exact\"\nvisibility_samples = 9\n") -
-                  frame_bytes("visibility = \"exact\"\nvisibility_samples = 4\n"),
-              5 * kernel);
-    EXPECT_EQ(frame_bytes("focus_m = 3\nfocus_steps = 9\n") - frame_bytes("focus_m = 3\nfocus_steps = 4\n"),
-              5 * kernel);
+    const auto kernels = [](const std::string& keys, std::int64_t lamps) {
+        return expected_kernels(scene_of(night(lens + keys)).optics, lamps);
+    };
+    EXPECT_EQ(kernels("", 8), 2);
+    EXPECT_EQ(kernels("visibility = \"exact\"\nvisibility_samples = 9\n", 0), 2);
+    EXPECT_EQ(kernels("visibility = \"exact\"\nvisibility_samples = 9\n", 1), 2 + 9);
+    EXPECT_EQ(kernels("visibility = \"exact\"\nvisibility_samples = 9\n", 8), 2 + 2 * 9);
+    EXPECT_EQ(kernels("focus_m = 3\nfocus_steps = 7\n", 8), 2 + 7);
+    // They are held while the light is spread.
+    OpticsSettings many = scene_of(night(std::string(lens) + "visibility = \"exact\"\n")).optics;
+    const RenderSettings render = scene_of(night(lens)).render;
+    many.visibility_samples = 4000;
+    const std::int64_t least = glare_bytes(many, render, 1, {});
+    many.visibility_samples = 4005;
+    EXPECT_EQ(glare_bytes(many, render, 1, {}), least + 5 * kernel);
     // Nine samples a pixel of all colours, of one kernel at a time.
     const OpticsSettings wide = [] {
         OpticsSettings o = scene_of(night(lens)).optics;
@@ -256,14 +263,29 @@ TEST(FrameGlare, MemoryCountsEveryKernelAndTheFinestMask) {
         o.radius_px = 4096;
         return o;
     }();
-    EXPECT_GT(glare_bytes(wide, {}, 0), std::int64_t{9} * 8193 * 8193 * 16);
-    // Far streaks of a wide lens are made of a mask as fine as masks get.
+    EXPECT_GT(glare_bytes(wide, {}, 0, {}), std::int64_t{9} * 8193 * 8193 * 16);
+    // Far streaks of a wide round lens are made of a mask as fine as masks get.
     OpticsSettings fine = scene_of(night(lens)).optics;
-    const RenderSettings render = scene_of(night(lens)).render;
-    EXPECT_LT(finest_mask_side(fine, render), 4096);
+    fine.shape.kind = ApertureKind::circle;
+    EXPECT_LT(glare_bytes(fine, render, 0, {}), std::int64_t{4096} * 4096 * 4);
     fine.f_number = 1;
-    EXPECT_EQ(finest_mask_side(fine, render), 4096);
-    EXPECT_GT(glare_bytes(fine, render, 0), std::int64_t{4096} * 4096 * 4);
+    EXPECT_GT(glare_bytes(fine, render, 0, {}), std::int64_t{4096} * 4096 * 4);
+}
+
+TEST(FrameGlare, BrightPixelsAndPatternsAreHeldToTheLimitWhenTheyAreKnown) {
+    Scene scene = scene_of(night(std::string(lens) + "visibility = \"exact\"\n"));
+    const std::int64_t most = std::int64_t{1} << 30;
+    EXPECT_GT(glare_bytes(scene.optics, scene.render, 1, most), most * bytes_per_lamp_pixel);
+    EXPECT_NO_THROW(check_bright_pixels(scene, 1));
+    EXPECT_THROW(check_bright_pixels(scene, most), LimitError);
+    const std::int64_t fit = kernels_that_fit(scene);
+    scene.limits.memory_mib *= 2;
+    EXPECT_NEAR(static_cast<double>(kernels_that_fit(scene) - fit),
+                static_cast<double>(scene.limits.memory_mib << 19) / (41 * 41 * 12), 2);
+    SourceKernels full;
+    full.most = 1;
+    EXPECT_EQ(add_kernel(Image<Vec3f>(1, 1), full), 0);
+    EXPECT_THROW(add_kernel(Image<Vec3f>(1, 1), full), LimitError);
 }
 
 TEST(FrameGlare, StatisticsTellOfIt) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "app/frame/memory.h"
 #include "app/pair/pair.h"
 #include "app/report/pair_notes.h"
 #include "app/scene/build.h"

@@ -275,7 +275,7 @@ TEST_F(SceneBuild, LimitsStopBeforeAllocating) {
         "[[light]]\nid = \"a\"\ntype = \"point\"\nposition_m = [0, 0, 0]\nintensity_w_sr = 1\n"
         "shadow = {method = \"map\", resolution = 16384}\n";
     EXPECT_EQ(error<LimitError>(maps),
-              "s.toml: needs about 6180 MiB (meshes 0, textures 0, shadow maps 6144, frame 36), more than "
+              "s.toml: needs about 6156 MiB (meshes 0, textures 0, shadow maps 6144, frame 12), more than "
               "limits.memory_mib = 4096");
     EXPECT_EQ(error<LimitError>(maps + "[limits]\nmemory_mib = 7000"), "");
 

@@ -1,0 +1,108 @@
+#include "app/frame/shadow_memory.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/frame/needed_texels.h"
+#include "hierarchy/build_memory.h"
+#include "hierarchy/tree_code.h"
+#include "raster/gbuffer.h"
+#include "raster/shadow_map.h"
+
+namespace obscura {
+namespace {
+
+bool builds_parts(const ShadowSettings& shadow) {
+    return shadow.method == ShadowMethod::compressed && shadow.scope == ShadowScope::frame;
+}
+
+/// Nodes of one view's tree, all of it. A model, not a bound: they grow with the length of the outlines on
+/// the map, that is with its side; 31 to 32 per texel of the side in the closed city of Scandolo, Bauszat and
+/// Eisemann 2016, more where there are many leaves. Construction stops at the limit. Nothing where the
+/// picture decides the resolution: it is found later.
+std::int64_t expected_nodes(const ShadowSettings& shadow) {
+    constexpr std::int64_t nodes_per_side = 32;
+    return std::min(nodes_per_side * shadow.resolution,
+                    std::int64_t{shadow.resolution} * shadow.resolution * 4 / 3);
+}
+
+/// Nodes of all of a light's trees, as far as they are built.
+std::int64_t built_nodes(const SceneLight& light, const RenderSettings& render) {
+    const ShadowSettings& s = light.shadow;
+    const std::int64_t maps = shadow_map_count(light), all = maps * expected_nodes(s);
+    const std::int64_t squares = builds_parts(s) ? expected_squares(s, maps, render) : 0;
+    // A light whose collection is given up has all of its map built. Else nodes follow the outlines that the
+    // picture shows: 200 to 4000 per side of its samples were measured, most where there are leaves.
+    if (!builds_parts(s) || squares >= most_needed_squares) return all;
+    const double side = std::sqrt(static_cast<double>(render.width) * render.height * render.samples);
+    const std::int64_t seen = maps == 0 ? 0 : std::min(static_cast<std::int64_t>(250 * side), 2 * squares);
+    return s.resolution == auto_resolution ? seen : std::min(all, seen);
+}
+
+std::int64_t top_bytes(const SceneLight& light) {
+    return light.shadow.resolution == auto_resolution
+               ? 0
+               : shadow_map_count(light) * (std::int64_t{sizeof(TopNode)} << (2 * light.shadow.top_levels));
+}
+
+}  // namespace
+
+int shadow_map_count(const SceneLight& light) {
+    if (light.shadow.method == ShadowMethod::none) return 0;
+    return shadow_view_count(light.light.kind);
+}
+
+std::int64_t shadow_map_bytes(const SceneLight& light) {
+    if (light.shadow.method == ShadowMethod::map)
+        return dense_map_bytes(light.light.kind, light.shadow.resolution);
+    return shadow_map_count(light) * expected_nodes(light.shadow) * node_bytes + top_bytes(light);
+}
+
+std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& render) {
+    if (!builds_parts(light.shadow)) return shadow_map_bytes(light);
+    return built_nodes(light, render) * node_bytes + top_bytes(light);
+}
+
+std::int64_t expected_squares(const ShadowSettings& shadow, std::int64_t maps, const RenderSettings& render) {
+    const std::int64_t pixels = std::int64_t{render.width} * render.height;
+    const std::int64_t read = pixels * (render.samples >= 16 ? 40 : render.samples >= 4 ? 15 : 6) / 5;
+    const std::int64_t blocks = (std::int64_t{shadow.resolution} + 7) / 8;
+    // Hierarchical kernels read coarser squares, too: a third more of them.
+    const std::int64_t there =
+        shadow.resolution == auto_resolution ? most_needed_squares : maps * blocks * blocks * 4 / 3 + 1;
+    return std::min({read, there, most_needed_squares});
+}
+
+std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights,
+                               const RenderSettings& render) {
+    // A word holds sixteen squares, of which a quarter are read; a code is one square. Codes of all lights
+    // stay until their trees are made, and one light's words are there twice while they are sorted.
+    constexpr std::int64_t word_bytes = sizeof(std::uint64_t) / 4, code_bytes = sizeof(std::uint64_t);
+    std::int64_t lists = 0, most = 0, work = 0;
+    for (const SceneLight& light : lights) {
+        const ShadowSettings& s = light.shadow;
+        if (s.method != ShadowMethod::compressed) continue;
+        const std::int64_t squares =
+            builds_parts(s) ? expected_squares(s, shadow_map_count(light), render) : 0;
+        lists += squares * (word_bytes + code_bytes);
+        most = std::max(most, squares);
+        // One view's tree at a time.
+        const std::int64_t nodes = built_nodes(light, render) / std::max(shadow_map_count(light), 1);
+        work = std::max(work, construction_bytes(mesh) + nodes * node_construction_bytes);
+    }
+    return lists + std::max(work, most * 2 * word_bytes);
+}
+
+std::int64_t dense_setup_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+    std::int64_t bytes = 0;
+    for (const SceneLight& light : lights) {
+        const int side = light.shadow.resolution;
+        if (light.shadow.method == ShadowMethod::map) {
+            bytes =
+                std::max(bytes, setup_bytes(mesh) + bin_bytes(mesh.triangles, side, side, frame_tile_side));
+        }
+    }
+    return bytes;
+}
+
+}  // namespace obscura

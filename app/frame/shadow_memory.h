@@ -1,0 +1,32 @@
+#pragma once
+// What the shadows of lights take: kept, and while they are made.
+
+#include <cstdint>
+#include <span>
+
+#include "app/scene/scene.h"
+#include "core/mesh_memory.h"
+
+namespace obscura {
+
+/// Maps of a light: none without shadows, six for a point light; and the bytes that lookups read of them when
+/// all of them is built, exact for dense maps, expected for compressed ones.
+int shadow_map_count(const SceneLight& light);
+std::int64_t shadow_map_bytes(const SceneLight& light);
+
+/// The same of what a picture of this size has built of it (scope "frame").
+std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& render);
+
+/// Squares (8 x 8 texels, or coarser ones) that a picture's lookups read of one light, expected: 1.2, 3 and
+/// 8 per pixel at 1, 4 and 16 samples, which share more of them the closer they lie. No more than the map
+/// has, nor than a collection may hold.
+std::int64_t expected_squares(const ShadowSettings& shadow, std::int64_t maps, const RenderSettings& render);
+
+/// Bytes held beside the maps while the shadows of `lights` are made: lists of what the picture reads of all
+/// of them, and one light's construction at a time.
+std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights,
+                               const RenderSettings& render);
+/// Of these, what is kept with the frame for the next: the setup of dense maps.
+std::int64_t dense_setup_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
+
+}  // namespace obscura
