@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "app/cli/check_command.h"
 #include "app/frame/glare_memory.h"
 #include "app/frame/hidden_lamps.h"
 #include "app/frame/lamp_pixels.h"
