@@ -7,10 +7,10 @@
 #include <iterator>
 #include <tuple>
 
+#include "app/scene/shadow_settings.h"
 #include "bench/harness/report.h"
 #include "bench/harness/run_times.h"
 #include "bench/shadows/report.h"
-#include "core/scene.h"
 
 namespace obscura {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "app/scene/scene.h"
 #include "core/isa.h"
-#include "core/scene.h"
 #include "raster/gbuffer.h"
 
 namespace obscura {
