@@ -1,10 +1,13 @@
 # The house: rooms and the arrows between them.
 #
-# obscura_room(ROOM [COLD] SOURCES... DEPS rooms... LIBS libraries...)
+# obscura_room(ROOM [COLD] SOURCES... DEPS rooms... LIBS libraries... ALONE sources...)
 #   makes the static library of a room: obscura_core of core, obscura_app_scene of app/scene. Its headers are
 #   reached as "ROOM/file.h" through a folder of the build tree that holds nothing but this room, so a file can
 #   include only its own room and those its room links to: the link graph is the architecture, and a wrong include
 #   does not build. A room inside another's folder has walls too: neither reaches the other without an arrow.
+#   Files are compiled in batches, since most of a file's time goes into the headers that all of them include.
+#   ALONE: files that may not share a batch: two unnamed namespaces of the room use one name, or the file brings
+#   a library's whole implementation. A name that is forgotten here does not compile.
 #   COLD: nothing in it runs often, so a release is made with -O1, which compiles faster. Pixels are the same.
 #
 # add_simd_kernels(ROOM files...)
@@ -74,7 +77,7 @@ function(obscura_cold target)
 endfunction()
 
 function(obscura_room room)
-  cmake_parse_arguments(ARG "COLD" "" "DEPS;LIBS" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "DEPS;LIBS;ALONE" ${ARGN})
   obscura_libraries(library ${room})
   obscura_libraries(below ${ARG_DEPS})
   obscura_window(${room} window)
@@ -85,6 +88,10 @@ function(obscura_room room)
     obscura_cold(${library})
   endif()
   obscura_precompile(${library} room)
+  if(OBSCURA_PRECOMPILE)
+    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+    set_source_files_properties(${ARG_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
   set_property(GLOBAL APPEND PROPERTY OBSCURA_ROOMS ${room})
 endfunction()
 

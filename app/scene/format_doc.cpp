@@ -102,7 +102,7 @@ void add_keys(std::string& out, const std::vector<KeySpec>& keys) {
     for (const KeySpec& key : keys) {
         if (key.table != nullptr) continue;
         const std::string fallback = key.required   ? "required"
-                                     : key.fallback ? "`" + toml_text(*key.fallback) + "`"
+                                     : key.fallback ? fmt::format("`{}`", toml_text(*key.fallback))
                                                     : "";
         out += fmt::format("| `{}`{} | {} | {} | {} | {} | {} |\n", key.name, key.animated ? " ~" : "",
                            type_text(key), unit_of(key.name), allowed_text(key), fallback, key.doc);
