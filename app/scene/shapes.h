@@ -1,6 +1,6 @@
 #pragma once
-// The shapes a [[mesh]] can ask for by name. Adding a generator is one entry in shapes.cpp or generators.cpp: its keys
-// with ranges, defaults and words, how many triangles it will make, and the call.
+// The shapes a [[mesh]] can ask for by name. Adding a generator is one entry in shapes.cpp or generators.cpp:
+// its keys with ranges, defaults and words, how many triangles it will make, and the call.
 
 #include <cstdint>
 #include <functional>

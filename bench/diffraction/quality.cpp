@@ -8,8 +8,8 @@
 #include "bench/diffraction/diffraction_bench.h"
 #include "filters/metrics.h"
 #include "optics/far_field.h"
-#include "optics/near_field.h"
 #include "optics/field/quads.h"
+#include "optics/near_field.h"
 
 namespace obscura {
 namespace {

@@ -9,8 +9,8 @@
 #include "optics/aperture_shapes.h"
 #include "optics/far_field.h"
 #include "optics/field/quads.h"
-#include "optics/thesis/spectral_lookup.h"
 #include "optics/spectrum.h"
+#include "optics/thesis/spectral_lookup.h"
 
 namespace obscura {
 namespace {

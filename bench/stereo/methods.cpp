@@ -44,8 +44,8 @@ struct SolveJob {
 
     void run() {
         Solution solution;
-        const double ms =
-            milliseconds_of([&] { solution = solve_by_method(*system, params, exec, {}, keep ? &cache : nullptr); });
+        const double ms = milliseconds_of(
+            [&] { solution = solve_by_method(*system, params, exec, {}, keep ? &cache : nullptr); });
         // The first run of a kept cache fills it.
         const bool filled = !keep || runs_++ > 0;
         if (filled && (best_ms == 0 || ms < best_ms)) best = std::move(solution), best_ms = ms;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/image.h"
-#include "optics/field/aperture.h"
 #include "optics/far_field.h"
+#include "optics/field/aperture.h"
 #include "optics/field/quads.h"
 
 namespace obscura::far_field_reference {

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "optics/far_field_progress.h"
-#include "optics/psf.h"
 #include "optics/field/quads.h"
+#include "optics/psf.h"
 #include "tests/optics/cases.h"
 #include "tests/optics/far_field_reference.h"
 

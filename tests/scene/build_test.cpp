@@ -1,6 +1,7 @@
 // From documents to scenes: placement, materials, lights, textures, files that may not be read, limits.
 
 #include "app/scene/build.h"
+#include "app/frame/load_scene.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -37,7 +38,7 @@ class SceneBuild : public testing::Test {
         std::ofstream(folder_ / name, std::ios::binary) << bytes;
     }
     Scene build(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-        return build_scene(read_scene_text(header + text, "s.toml", overrides), FileAccess{folder_, {}});
+        return load_scene(read_scene_text(header + text, "s.toml", overrides), FileAccess{folder_, {}});
     }
     template <class Error = InputError>
     std::string error(const std::string& text) const {
