@@ -28,8 +28,8 @@ constexpr double floor_mib = 12;
 
 /// Peak of resident memory, MiB.
 double peak_of(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), OBSCURA_BINARY);
-    std::vector<char*> argv;
+    std::string program = OBSCURA_BINARY;
+    std::vector<char*> argv = {program.data()};
     for (std::string& argument : arguments)
         argv.push_back(argument.data());
     argv.push_back(nullptr);
