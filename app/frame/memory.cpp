@@ -68,8 +68,11 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
             e.textures += static_cast<std::int64_t>(level.pixels.size() * sizeof(Vec3f));
     }
     bool shadows = false;
+    std::int64_t dense = 0;  // whole blocks, which leave nothing over
     for (const SceneLight& light : lights) {
-        e.shadow_maps += built_map_bytes(light, scene.render);
+        const std::int64_t bytes = built_map_bytes(light, scene.render);
+        e.shadow_maps += bytes;
+        if (light.shadow.method == ShadowMethod::map) dense += bytes;
         shadows |= light.shadow.method != ShadowMethod::none;
     }
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
@@ -79,7 +82,7 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
                                  glare_bytes(scene.optics, scene.render, lamp_count(scene), known.bright_px);
     e.frame = prepared_bytes(mesh, scene.render) + dense_setup_bytes(mesh, lights) + thread_bytes(shadows) +
               std::max(making, making / 4 + picture);
-    e.frame += allocator_bytes(e.total());
+    e.frame += allocator_bytes(e.total() - dense);
     return e;
 }
 

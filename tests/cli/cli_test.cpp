@@ -84,6 +84,7 @@ std::string plausible_value(const std::string& kind) {
                                                                      {"X", "2"},
                                                                      {"U,V", "1,2"},
                                                                      {"METHOD", "runs"},
+                                                                     {"MODE", "exact"},
                                                                      {"LAYOUT", "anaglyph"},
                                                                      {"VARIANTS", "warp"},
                                                                      {"PREFIX", "map"},

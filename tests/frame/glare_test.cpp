@@ -12,6 +12,7 @@
 #include "app/frame/hidden_lamps.h"
 #include "app/frame/lamp_pixels.h"
 #include "app/frame/lens.h"
+#include "app/frame/load_scene.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/source_kernels.h"
 #include "app/report/lens_text.h"
@@ -63,7 +64,7 @@ radius_px = 20
 )";
 
 Scene scene_of(const std::string& text) {
-    return build_scene(read_scene_text(text, "night.toml"), FileAccess{".", {}});
+    return load_scene(read_scene_text(text, "night.toml"), FileAccess{".", {}});
 }
 
 double light_of(const Frame& frame) {

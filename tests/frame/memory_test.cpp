@@ -24,7 +24,7 @@ namespace {
 
 constexpr double mib = 1 << 20;
 /// What page rounding, threads' arenas and setup that no triangle fills come to, whatever the scene.
-constexpr double floor_mib = 12;
+constexpr double floor_mib = 20;
 
 /// Peak of resident memory, MiB.
 double peak_of(std::vector<std::string> arguments) {
