@@ -62,13 +62,8 @@ check_libm() {
 }
 
 check_files() {
-    sources | while read -r file; do
-        lines=$(wc -l <"$file")
-        [ "$lines" -le 400 ] || echo "$file: $lines lines, more than 400"
-        case $(basename "${file%.*}") in
-            utils | util | helpers | helper | common | misc) echo "$file: the name says nothing" ;;
-        esac
-    done
+    sources | xargs -r awk 'FNR == 401 { print FILENAME ": more than 400 lines" }'
+    sources | grep -E '(^|/)(utils|util|helpers|helper|common|misc)\.[a-z]+$' | sed 's/$/: the name says nothing/'
     sources | xargs -r grep -nE '\b(TODO|FIXME|XXX|HACK)\b'
     sources | grep '\.h$' | xargs -r grep -L '^#pragma once' | sed 's/$/: no #pragma once/'
 }
