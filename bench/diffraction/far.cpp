@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "bench/diffraction/far_field_jobs.h"
+#include "bench/harness/run_times.h"
 #ifdef OBSCURA_HAS_FFTW
 #include "bench/diffraction/peers.h"
-#include "bench/harness/run_times.h"
 #endif
 
 namespace obscura {

@@ -24,7 +24,7 @@ look_at() {  # look_at MODE BUILD_DIR DEADLINE LINE
     else
         # Parsing alone, without the compiler cache, which has nothing to keep here.
         command=$(sed -E 's|^.*/ccache ||; s| -o [^ ]+ -c | -fsyntax-only |; s| -O3 | -O0 |g' <<<"$command")
-        (cd "$directory" && $command) 2>&1 || status=$?
+        (cd "$directory" && eval "$command") 2>&1 || status=$?
     fi
     if [ $status -eq 0 ]; then echo "fine: $file"; else echo "failed: $file"; fi
 }
