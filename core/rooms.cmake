@@ -103,7 +103,10 @@ set(OBSCURA_ISA_FLAGS_avx512bw -mavx512f -mavx512cd -mavx512dq -mavx512bw -mavx5
 # g++ 12 takes the undefined upper halves inside its own AVX-512 headers for uninitialised reads.
 function(obscura_kernel_options target isa)
   target_compile_definitions(${target} PRIVATE OBSCURA_ISA=${isa} OBSCURA_ISA_${isa}=1)
-  target_compile_options(${target} PRIVATE ${OBSCURA_ISA_FLAGS_${isa}} -O3 -DNDEBUG
+  if(NOT OBSCURA_SANITIZE)
+    target_compile_options(${target} PRIVATE -O3)
+  endif()
+  target_compile_options(${target} PRIVATE ${OBSCURA_ISA_FLAGS_${isa}} -DNDEBUG
     $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized> -fno-exceptions -fno-rtti)
   if(NOT isa STREQUAL sse2)
     set_target_properties(${target} PROPERTIES OBSCURA_UNWATCHED ON)

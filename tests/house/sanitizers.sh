@@ -18,21 +18,24 @@ if [ "${3-}" = self-test ]; then
     exit 0
 fi
 
-# Line numbers are enough for a report.
-cmake --preset asan-ubsan -B "$build" -DCMAKE_CXX_FLAGS_DEBUG=-g1 -DOBSCURA_PEERS=OFF >"$build/log" 2>&1 || { cat "$build/log"; exit 1; }
+# Line numbers are enough for a report. Warnings are for the other builds: with these flags g++ 12 gives false ones.
+cmake --preset asan-ubsan -B "$build" -DCMAKE_CXX_FLAGS_DEBUG=-g1 -DOBSCURA_PEERS=OFF -DOBSCURA_WERROR=OFF >"$build/log" 2>&1 || { cat "$build/log"; exit 1; }
 programs=$(grep -E '^[a-z]' tests/house/sanitized.txt | awk '{ print $1 }')
 cmake --build "$build" --target $programs >"$build/log" 2>&1 || { tail -n 60 "$build/log"; exit 1; }
 
-failed=0
-while read -r program filter; do
-    found=$(find "$build/tests" -name "$program" -type f)
-    if ! (cd "$build" && UBSAN_OPTIONS=print_stacktrace=1 timeout 300 "$found" --gtest_brief=1 "--gtest_filter=$filter") >"$build/run.log" 2>&1; then
-        echo "FAILED: $program --gtest_filter=$filter"
-        cat "$build/run.log"
-        failed=1
-    elif ! grep -qE '^\[==========\] [1-9][0-9]* tests? ' "$build/run.log"; then
-        echo "FAILED: $program --gtest_filter=$filter ran no test"
-        failed=1
+# Two programs at a time; each leaves what it said in a file of its own when it fails.
+run() {  # run PROGRAM FILTER
+    local found log="$build/$1.log"
+    found=$(find "$build/tests" -name "$1" -type f)
+    if ! (cd "$build" && UBSAN_OPTIONS=print_stacktrace=1 timeout 300 "$found" --gtest_brief=1 "--gtest_filter=$2") >"$log" 2>&1; then
+        echo "FAILED: $1 --gtest_filter=$2"
+        cat "$log"
+        return 1
+    elif ! grep -qE '^\[==========\] [1-9][0-9]* tests? ' "$log"; then
+        echo "FAILED: $1 --gtest_filter=$2 ran no test"
+        return 1
     fi
-done < <(grep -E '^[a-z]' tests/house/sanitized.txt)
-exit $failed
+}
+export build
+export -f run
+grep -E '^[a-z]' tests/house/sanitized.txt | xargs -P 2 -L 1 bash -c 'run "$0" "$1"'

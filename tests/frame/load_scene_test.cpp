@@ -1,7 +1,7 @@
 // From documents to scenes: placement, materials, lights, textures, files that may not be read, limits.
 
-#include "app/scene/build.h"
 #include "app/frame/load_scene.h"
+#include "app/scene/build.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -11,7 +11,6 @@
 #include <fstream>
 #include <string>
 
-#include "app/cli/check_command.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "core/texture.h"
@@ -300,51 +299,6 @@ TEST_F(SceneBuild, LimitsStopBeforeAllocating) {
     EXPECT_EQ(error<LimitError>(quads + "triangles = 3"),
               "s.toml: mesh 'q' brings the scene to 4 triangles, more than limits.triangles = 3");
     EXPECT_EQ(error<LimitError>(quads + "triangles = 4"), "");
-}
-
-TEST_F(SceneBuild, CheckReportsWithoutRendering) {
-    write("s.toml", header + R"(
-[[mesh]]
-id = "a"
-shape = "box"
-[[light]]
-id = "lamp"
-type = "point"
-position_m = [0, 3, 0]
-intensity_w_sr = 20
-shadow = {method = "map", resolution = 1024}
-[[light]]
-id = "spot"
-type = "spot"
-position_m = [0, 3, 0]
-look_at_m = [0, 0, 0]
-intensity_w_sr = 20
-shadow = {resolution = 65536, scope = "full", filter = "hierarchical"}
-[[light]]
-id = "sun"
-type = "directional"
-azimuth_deg = 90
-elevation_deg = 40
-[frames]
-range = "1-48"
-[[output]]
-file = "out_####.png"
-)");
-    const std::string report = check_report({folder_ / "s.toml", {"render.samples=1"}, {}});
-    for (const char* line :
-         {"picture   960 x 540 pixels, 1 sample each", "frames    48 (1-48)",
-          "output    beauty -> out_####.png",
-          "light     lamp: point, 6 dense shadow maps of 1024 x 1024, filter 3 x 3, 24.0 MiB",
-          "light     spot: spot, 1 compressed shadow map of 65536 x 65536, filter 3 x 3, built whole, "
-          "filtered "
-          "hierarchically, about 12.0 MiB",
-          "light     sun: directional, 1 compressed shadow map of 512 x 512, texels of ",
-          "          auto: a texel spans 0.",
-          "meshes    12 triangles, 24 vertices, 1 objects, 1 closed and 0 open components", "\nok\n"}) {
-        EXPECT_NE(report.find(line), std::string::npos) << line << "\nis not in\n" << report;
-    }
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1)
-        << "something was written";
 }
 
 TEST(Texture, LevelsKeepTheMean) {
