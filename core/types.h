@@ -15,10 +15,15 @@ struct DepthInterval {
     friend bool operator==(const DepthInterval&, const DepthInterval&) = default;
 };
 
-/// Middle of the interval, inside it after rounding: the depth that a shadow map stores.
+/// The depth that a shadow map stores of an interval: its middle, but no farther behind the entry than
+/// deepest_stored, inside the interval after rounding. Where nothing solid follows a sheet for long, the
+/// middle would be in the air, and whoever stands between, beside the sheet's edge, would be lit through it
+/// by the taps that miss it.
+constexpr float deepest_stored = 1.0f / 256.0f;
 constexpr float stored_depth(DepthInterval i) {
-    const float mid = 0.5f * i.entry + 0.5f * i.exit;
-    return mid < i.entry ? i.entry : (mid > i.exit ? i.exit : mid);
+    const float half = 0.5f * (i.exit - i.entry);
+    const float depth = i.entry + (half < deepest_stored ? half : deepest_stored);
+    return depth < i.entry ? i.entry : (depth > i.exit ? i.exit : depth);
 }
 
 /// Map from world space to the texels of an image: to_map * (x, y, z, 1) = (X w, Y w, Z w, w), with X right

@@ -39,11 +39,25 @@ struct PcfView {
     bool perspective = false;
     double near_w = 0;    ///< perspective: receivers nearer than this are lit
     double offset_m = 0;  ///< normal offset of receivers on open or inside-out components, at distance 1 if
-                          ///< perspective
+                          ///< perspective; 0: none
     /// On a plane with normal n, with l to the light (unit, or from the receiver to its position):
     /// dZ/dX = n . slope_x / n . l, and the same for Y.
     float slope_x[3] = {0, 0, 0}, slope_y[3] = {0, 0, 0};
+    /// The plane moved by d metres along n: dZ = d step / n . l, by w if perspective.
+    float step = 0;
 };
+
+/// What is certain of a receiver's depth. A map may store the very depth of the receiver's own plane (where
+/// two solids touch, one interval ends where the other begins), so that depth is taken nearer to the light by
+/// all that rounding may have moved it, and no more:
+///  - the receiver's position is a float, relative to the eye: at most pcf_position_error (8 half units in
+///  the last
+///    place) times |x| + |y| + |z| off its plane, which the angle to the light stretches by 1 / (n . l);
+///  - vertices snap to 1/256 texel, so a texel's centre may see a facet that ends so far from it: pcf_snap
+///  times
+///    |dZ/dX| + |dZ/dY|; that also covers the rounding of the plane's rise over a kernel;
+///  - depths are floats in [0, 1], stored and computed: pcf_depth_error (four units in the last place).
+constexpr float pcf_position_error = 0x1p-21f, pcf_snap = 1.0f / 256.0f, pcf_depth_error = 0x1p-22f;
 
 /// Planes that light grazes, at less than 0.9 degrees, are taken as if it were that: n . l / |l| is no less.
 constexpr float pcf_least_cosine = 1.0f / 64.0f;

@@ -17,6 +17,7 @@ struct Receivers16 {
 
 struct Moved16 {
     F64 x, y, z;
+    F32 reach;
     Vec3x16 n, to_light;
     OBSCURA_INLINE F64 row(const double (&m)[4]) const {
         return (splat(m[0]) * x + splat(m[1]) * y) + (splat(m[2]) * z + splat(m[3]));
@@ -36,8 +37,8 @@ OBSCURA_INLINE F64 axial_distance(const PcfLight& light, const Moved16& p) {
 /// Moves the lanes of `open`.
 OBSCURA_INLINE Moved16 move(const PcfLight& light, const Vec3x16& p, const Vec3x16& n,
                             const Vec3x16& to_light, std::uint32_t open) {
-    Moved16 m{to_f64(p.x), to_f64(p.y), to_f64(p.z), n, to_light};
-    if (open == 0) return m;
+    Moved16 m{to_f64(p.x), to_f64(p.y), to_f64(p.z), (abs(p.x) + abs(p.y)) + abs(p.z), n, to_light};
+    if (open == 0 || light.view[0].offset_m == 0) return m;
     F64 offset = splat(light.view[0].offset_m) * axial_distance(light, m);
     if (!light.directional) offset = min(offset, to_f64(splat(pcf_nearest_offset) * dot(n, to_light)));
     const Vec3x16 way = select(mask_of(open), n, splat3(0.0f, 0.0f, 0.0f));
@@ -51,6 +52,7 @@ OBSCURA_INLINE Moved16 move(const PcfLight& light, const Vec3x16& p, const Vec3x
 OBSCURA_INLINE Receivers16 place(const PcfView& view, const Moved16& p) {
     Receivers16 r;
     F64 X = p.row(view.to_map[0]), Y = p.row(view.to_map[1]), Z = p.row(view.to_map[2]);
+    F32 step = splat(view.step);
     r.before_near = mask_of(0);
     if (view.perspective) {
         const F64 w = p.row(view.to_map[3]);
@@ -58,16 +60,19 @@ OBSCURA_INLINE Receivers16 place(const PcfView& view, const Moved16& p) {
         X = X * inv;
         Y = Y * inv;
         Z = Z * inv;
+        step = step * to_f32(inv);
         r.before_near = ~greater_equal(w, splat(view.near_w));
     }
     const F64 low = splat(-8.0), high = splat(static_cast<double>(view.size) + 8.0);
     r.X = min(max(X, low), high);
     r.Y = min(max(Y, low), high);
-    r.depth = min(to_f32(Z), splat(1.0f));
     const F32 least = splat(pcf_least_cosine) * sqrt(dot(p.to_light, p.to_light));
     const F32 inv_nl = splat(1.0f) / max(dot(p.n, p.to_light), least);
     r.slope_x = dot(p.n, splat3(view.slope_x)) * inv_nl;
     r.slope_y = dot(p.n, splat3(view.slope_y)) * inv_nl;
+    const F32 off_plane = splat(pcf_position_error) * p.reach * step * inv_nl;
+    const F32 snap = splat(pcf_snap) * (abs(r.slope_x) + abs(r.slope_y));
+    r.depth = min(to_f32(Z), splat(1.0f)) - ((off_plane + snap) + splat(pcf_depth_error));
     return r;
 }
 

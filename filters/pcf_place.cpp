@@ -18,6 +18,7 @@ Vec3f towards(const PcfLight& light, Vec3f p) {
 /// A receiver on its way to the map, relative to the eye; `n` turned to the light's side.
 struct Moved {
     double x, y, z;
+    float reach;  ///< |x| + |y| + |z|
     Vec3f n, to_light;
     double row(const double (&m)[4]) const { return (m[0] * x + m[1] * y) + (m[2] * z + m[3]); }
 };
@@ -30,8 +31,13 @@ double axial_distance(const PcfLight& light, const Moved& p) {
 }
 
 Moved move(const PcfLight& light, Vec3f p, Vec3f n, Vec3f to_light, bool open) {
-    Moved m{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), n, to_light};
-    if (!open) return m;
+    Moved m{static_cast<double>(p.x),
+            static_cast<double>(p.y),
+            static_cast<double>(p.z),
+            (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z),
+            n,
+            to_light};
+    if (!open || light.view[0].offset_m == 0) return m;
     double offset = light.view[0].offset_m * axial_distance(light, m);
     if (!light.directional) {
         offset = lane_min(offset, static_cast<double>(pcf_nearest_offset * dot(n, to_light)));
@@ -51,12 +57,15 @@ void place(const PcfView& view, const Moved& p, PcfPlace& r) {
     const double low = -8.0, high = static_cast<double>(view.size) + 8.0;
     r.X = lane_min(lane_max(p.row(view.to_map[0]) * inv, low), high);
     r.Y = lane_min(lane_max(p.row(view.to_map[1]) * inv, low), high);
-    // Beyond the map's depth range there is only background, at depth 1.
-    r.depth = lane_min(static_cast<float>(p.row(view.to_map[2]) * inv), 1.0f);
     const float least = pcf_least_cosine * std::sqrt(dot(p.to_light, p.to_light));
     const float inv_nl = 1.0f / lane_max(dot(p.n, p.to_light), least);
     r.slope_x = dot(p.n, Vec3f{view.slope_x[0], view.slope_x[1], view.slope_x[2]}) * inv_nl;
     r.slope_y = dot(p.n, Vec3f{view.slope_y[0], view.slope_y[1], view.slope_y[2]}) * inv_nl;
+    const float off_plane = pcf_position_error * p.reach * (view.step * static_cast<float>(inv)) * inv_nl;
+    const float snap = pcf_snap * (std::fabs(r.slope_x) + std::fabs(r.slope_y));
+    // Beyond the map's depth range there is only background, at depth 1.
+    r.depth = lane_min(static_cast<float>(p.row(view.to_map[2]) * inv), 1.0f) -
+              ((off_plane + snap) + pcf_depth_error);
 }
 
 /// Square of the way on the map that a step on the receiver's plane makes.

@@ -24,6 +24,7 @@ void set_slopes(const LightView& view, PcfView& v) {
     };
     set(v.slope_x, slope(0));
     set(v.slope_y, slope(1));
+    v.step = static_cast<float>(scale);
 }
 
 PcfView pcf_view(const LightView& view, Vec3d eye, double offset_texels) {

@@ -14,7 +14,7 @@ namespace obscura {
 
 struct PcfParams {
     int side = 3;  ///< of the kernel, texels: odd, to 5 (maps) or max_tree_pcf_side (trees)
-    double normal_offset_texels = 1.5;  ///< bias of receivers on open components
+    double normal_offset_texels = 0;  ///< of receivers on open components, beyond what rounding asks for
 };
 
 /// Where a light's lookups fall on maps with these views; without stored depths, for pcf_place(). `eye`: the

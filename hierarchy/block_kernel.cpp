@@ -80,18 +80,33 @@ struct Intervals {
     F32 entry, exit;
 };
 
-Intervals intervals_of(const Crossings& c, bool static_receivers) {
-    I32 first = splat(no_layer), second = splat(no_layer);
-    const auto meet = [&](const I32& key) {
-        second = min(second, max(first, key));
-        first = min(first, key);
-    };
+template <class Meet>
+void for_each_key(const Crossings& c, Meet&& meet) {
     for (int i = 0; i < c.entries; ++i)
         meet(c.entry[i]);
     for (int i = 0; i < c.opens; ++i)
         meet(c.open[i]);
     for (int i = 0; i < c.exits; ++i)
         meet(c.exit[i]);
+}
+
+/// From the first surface up to the next deeper one.
+Intervals up_to_next(const Crossings& c) {
+    I32 first = splat(no_layer), next = splat(no_layer);
+    for_each_key(c, [&](const I32& key) { first = min(first, key); });
+    // The last key that has the first one's depth.
+    const I32 same = first | splat(3);
+    for_each_key(c, [&](const I32& key) { next = min(next, select(less(same, key), key, splat(no_layer))); });
+    const F32 one = splat(1.0f);
+    const F32 before = bitcast_f32(bitcast_i32(depths_of(next)) - splat(1));
+    return {select(equal(first, splat(no_layer)), one, depths_of(first)),
+            select(equal(next, splat(no_layer)), one, before)};
+}
+
+/// The counter.
+Intervals counted(const Crossings& c) {
+    I32 first = splat(no_layer);
+    for_each_key(c, [&](const I32& key) { first = min(first, key); });
 
     // The first exit after which the counter is back at zero; keys put entries before exits at equal depth.
     I32 last = splat(no_layer);
@@ -106,19 +121,11 @@ Intervals intervals_of(const Crossings& c, bool static_receivers) {
     }
 
     const Mask nothing = equal(first, splat(no_layer));
-    const I32 kind = first & splat(3);
-    const Mask solid = equal(kind, splat(0)) & ~equal(last, splat(no_layer));
+    const Mask solid = equal(first & splat(3), splat(0)) & ~equal(last, splat(no_layer));
     const F32 one = splat(1.0f);
     Intervals r;
     r.entry = select(nothing, one, depths_of(first));
     r.exit = select(nothing, one, select(solid, depths_of(last), r.entry));
-    if (static_receivers) {
-        const Mask open = equal(kind, splat(1));
-        const I32 z1 = bitcast_i32(depths_of(first)), z2 = bitcast_i32(depths_of(second));
-        const F32 before = bitcast_f32(max(z1, z2 - splat(1)));
-        const F32 reach = select(equal(second, splat(no_layer)), one, before);
-        r.exit = select(open & ~nothing, reach, r.exit);
-    }
     return r;
 }
 
@@ -154,7 +161,7 @@ void block_intervals(const TriangleRecord* records, const std::uint32_t* list, s
         }
     }
     for (int q = 0; q < 4; ++q) {
-        const Intervals r = intervals_of(crossings[q], static_receivers);
+        const Intervals r = static_receivers ? up_to_next(crossings[q]) : counted(crossings[q]);
         store(entry + 16 * q, r.entry);
         store(exit + 16 * q, r.exit);
     }

@@ -14,6 +14,12 @@ float ulp(float z) {
     return std::nextafterf(z, 2.0f) - z;
 }
 
+bool same_plane(const Layer& p, const Layer& q) {
+    if (p.plane == nullptr || q.plane == nullptr) return false;
+    const TriangleRecord &s = *p.plane, &t = *q.plane;
+    return std::tie(s.a, s.b, s.c, s.zmin, s.zmax) == std::tie(t.a, t.b, t.c, t.zmin, t.zmax);
+}
+
 /// The four corner texels' centres.
 struct Corners {
     double X[2], Y[2];
@@ -31,13 +37,20 @@ Verdict Judge::judge(const Square& square, std::vector<Listed>& list, std::size_
 
     Verdict verdict;
     verdict.common = common(found, square, own);
-    verdict.by_mesh = verdict.common && ((found.first.plane == nullptr && found.kind != Course::nothing) ||
-                                         (found.kind == Course::solid && found.last.plane == nullptr));
+    verdict.by_mesh = verdict.common && found.kind != Course::nothing && takes_meshes(found);
     verdict.deepest = found.kind == Course::uncertain ? exit_bound() : found.deepest;
     list.erase(std::remove_if(list.begin() + static_cast<std::ptrdiff_t>(begin), list.end(),
                               [](const Listed& l) { return l.facet == no_facet; }),
                list.end());
     return verdict;
+}
+
+/// Whether a surface of several facets decides.
+bool Judge::takes_meshes(const Course& c) const {
+    if (c.first.plane == nullptr || (c.kind == Course::solid && c.last.plane == nullptr)) return true;
+    return std::any_of(layers_.begin() + static_cast<std::ptrdiff_t>(c.next_begin),
+                       layers_.begin() + static_cast<std::ptrdiff_t>(c.next_end),
+                       [](const Layer& l) { return l.plane == nullptr; });
 }
 
 /// Joins facets that share an edge within the square. What is left is torn where an edge has nothing beyond
@@ -135,17 +148,17 @@ void Judge::gather(const Square& square, std::span<Listed> list) {
     });
 }
 
-/// Whether p comes before q at every texel. The distance of two planes is affine: what it exceeds at the
-/// corners it exceeds everywhere between. Rounding to float keeps the order of depths but may make them
-/// equal, which is well unless p is an exit and q an entry: equal, they would change places.
-bool Judge::certain_order(const Layer& p, const Layer& q, const Square& square) const {
-    const bool may_be_equal = p.crossing <= q.crossing;
-    if (p.high < q.low || (may_be_equal && p.high <= q.low)) return true;
+/// Whether p lies before q at every texel, strictly or, with `or_equal`, nowhere behind it. The distance of
+/// two planes is affine: what it exceeds at the corners it exceeds everywhere between. Rounding to float
+/// keeps the order of depths but may make them equal, which the margin excludes.
+bool Judge::certainly_before(const Layer& p, const Layer& q, const Square& square, bool or_equal) const {
+    if (p.high < q.low || (or_equal && p.high <= q.low)) return true;
+    if (p.plane == nullptr || q.plane == nullptr) return false;
     const Corners at(square);
     const TriangleRecord &s = *p.plane, &t = *q.plane;
     const bool same = s.a == t.a && s.b == t.b && s.c == t.c;
-    if (same && !may_be_equal) return false;
-    const double margin = may_be_equal ? 0.0 : static_cast<double>(ulp(std::max(p.high, q.high)));
+    if (same && !or_equal) return false;
+    const double margin = or_equal ? 0.0 : static_cast<double>(ulp(std::max(p.high, q.high)));
     for (const double X : at.X) {
         for (const double Y : at.Y) {
             const double zs = s.a * X + (s.b * Y + s.c), zt = t.a * X + (t.b * Y + t.c);
@@ -172,13 +185,55 @@ bool Judge::put_in_order(std::span<Layer> cluster, const Square& square) const {
         return std::tie(zp, p.crossing, p.root) < std::tie(zq, q.crossing, q.root);
     });
     for (std::size_t i = 1; i < cluster.size(); ++i) {
-        if (!certain_order(cluster[i - 1], cluster[i], square)) return false;
+        // Equal, an exit and an entry would change places.
+        const bool or_equal = cluster[i - 1].crossing <= cluster[i].crossing;
+        if (!certainly_before(cluster[i - 1], cluster[i], square, or_equal)) return false;
     }
     return true;
 }
 
-/// Runs the counter of raster/intervals.h once for all texels.
 Judge::Course Judge::course(const Square& square) {
+    if (layers_.empty() && least_uncertain_ > 1.0f) {
+        Course c;
+        c.kind = Course::nothing;
+        return c;
+    }
+    return receivers_ == Receivers::static_only ? up_to_next(square) : counted(square);
+}
+
+/// Receivers::static_only: which layer comes first everywhere, and which come next.
+Judge::Course Judge::up_to_next(const Square& square) {
+    if (layers_.empty()) return {};
+    // Layers whose depths overlap that of the first.
+    std::size_t end = 0;
+    for (float reach = layers_[0].high; end < layers_.size() && layers_[end].low <= reach; ++end)
+        reach = std::max(reach, layers_[end].high);
+    if (end > 1 && !put_in_order({layers_.data(), end}, square)) return {};
+    Course c;
+    c.first = layers_[0];
+    if (least_uncertain_ <= c.first.high) return {};
+    c.kind = Course::open;
+    c.exact = c.first.weight == 1;
+    // Coincident sheets are one surface.
+    std::size_t next = 1;
+    while (next < end && same_plane(c.first, layers_[next]))
+        ++next;
+    if (next == layers_.size()) {
+        c.exact = c.exact && least_uncertain_ > 1.0f;
+        return c;
+    }
+    c.deepest = layers_[next].high;
+    c.exact = c.exact && least_uncertain_ > c.deepest;
+    c.next_begin = next;
+    for (; next < layers_.size() && layers_[next].low <= c.deepest; ++next)
+        c.exact = c.exact && certainly_before(c.first, layers_[next], square, false);
+    c.next_end = next;
+    if (!certainly_before(c.first, layers_[c.next_begin], square, false)) c.deepest = 2.0f;
+    return c;
+}
+
+/// Receivers::any: runs the counter of raster/intervals.h once for all texels.
+Judge::Course Judge::counted(const Square& square) {
     Course c;
     int inside = 0;
     for (std::size_t i = 0; i < layers_.size();) {
@@ -205,10 +260,6 @@ Judge::Course Judge::course(const Square& square) {
             if (inside == 0) {
                 c.first = layer;
                 c.exact = layer.weight == 1;
-                if (layer.crossing == Crossing::open && receivers_ == Receivers::static_only) {
-                    follow(k, end, c);
-                    return c;
-                }
                 if (layer.crossing != Crossing::entry) {
                     c.kind = Course::point;
                     c.deepest = layer.high;
@@ -232,36 +283,28 @@ Judge::Course Judge::course(const Square& square) {
     return c;
 }
 
-/// An open surface, layer k, that only the scene's own surfaces see: its interval reaches up to what follows
-/// it. Layers before `ordered` are in certain order.
-void Judge::follow(std::size_t k, std::size_t ordered, Course& c) const {
-    c.kind = Course::open;
-    c.followed = k + 1 < layers_.size();
-    if (!c.followed) {
-        c.exact = c.exact && least_uncertain_ > 1.0f;
-        return;
-    }
-    c.last = layers_[k + 1];
-    c.deepest = c.last.high;
-    const bool next_alone =
-        k + 1 < ordered || k + 2 == layers_.size() || layers_[k + 2].low > layers_[k + 1].high;
-    c.exact = c.exact && next_alone && least_uncertain_ > c.last.high;
-}
-
 /// A depth by which every texel's interval is decided, though their order is not certain. Beyond a back face
 /// that covers all texels, at depth z, that is so when not more front faces may lie before z at any texel
 /// than back faces certainly do: the counter has then come back to zero.
 float Judge::exit_bound() const {
     float bound = 2.0f;
+    if (receivers_ == Receivers::static_only) {
+        // Two surfaces that are certainly apart.
+        float first = 2.0f;
+        for (const Layer& l : layers_)
+            first = std::min(first, l.high);
+        for (const Layer& l : layers_) {
+            if (l.low > first) bound = std::min(bound, l.high);
+        }
+        return bound;
+    }
     for (const Layer& candidate : layers_) {
         if (candidate.crossing == Crossing::entry || candidate.high >= bound) continue;
         const float z = candidate.high;
         int surplus = 0;
-        float second = 2.0f;
         for (const Layer& l : layers_) {
             if (l.crossing == Crossing::entry && l.low <= z) surplus += l.weight;
             if (l.crossing == Crossing::exit && l.high <= z) surplus -= l.weight;
-            if (&l != &candidate) second = std::min(second, l.high);
         }
         for (const float low : uncertain_entries_)
             surplus += low <= z;
@@ -270,14 +313,13 @@ float Judge::exit_bound() const {
             continue;
         }
         // An open surface ends an interval only where no front face comes before it, and back faces before it
-        // do the same; seen by the scene alone, at whatever comes next.
+        // do the same.
         const bool first =
             std::none_of(layers_.begin(), layers_.end(),
                          [&](const Layer& l) { return l.crossing == Crossing::entry && l.low <= z; }) &&
             std::none_of(uncertain_entries_.begin(), uncertain_entries_.end(),
                          [&](float low) { return low <= z; });
-        if (!first) continue;
-        bound = receivers_ == Receivers::static_only ? std::min(bound, std::max(z, second)) : z;
+        if (first) bound = z;
     }
     return bound;
 }
@@ -292,10 +334,13 @@ std::optional<DepthInterval> Judge::common(const Course& c, const Square& square
         if (c.first.low < c.first.high) return {};
         return DepthInterval{c.first.low, c.first.low};
     }
-    if (c.kind == Course::open && !c.followed) return DepthInterval{greatest(c.first), 1.0f};
     if (c.kind == Course::open) {
-        if (!(c.first.high < just_before(c.last.low, 0.0f))) return {};
-        return DepthInterval{greatest(c.first), just_before(least(c.last), 0.0f)};
+        float next = 2.0f;
+        for (std::size_t k = c.next_begin; k < c.next_end; ++k) {
+            if (!(c.first.high < layers_[k].low)) return {};
+            next = std::min(next, least(layers_[k]));
+        }
+        return DepthInterval{greatest(c.first), next > 1.0f ? 1.0f : just_before(next)};
     }
     if (!(c.first.high <= c.last.low)) return {};
     return DepthInterval{greatest(c.first), least(c.last)};
@@ -317,58 +362,6 @@ float Judge::extreme(const Layer& layer, const Square& square, std::span<const L
     for (const Listed* l : own) {
         if (bound(*l) <= (greatest ? best : -best)) continue;
         best = extreme_depth(set_, set_.facets[l->facet], square, greatest, best);
-    }
-    return best;
-}
-
-namespace {
-
-std::int64_t floor_div(std::int64_t a, std::int64_t b) {
-    const std::int64_t q = a / b;
-    return q - (a % b != 0 && (a < 0) != (b < 0));
-}
-
-/// Columns of one row of texels that an outline covers.
-struct RowSpan {
-    std::int64_t first, last;
-};
-
-/// Narrows the span to where A x + rest >= 0, x = 256 column + 128.
-void narrow(RowSpan& span, std::int64_t A, std::int64_t rest) {
-    const std::int64_t at_zero = rest + A * 128, step = A * subtexel_one;
-    if (step > 0) {
-        span.first = std::max(span.first, -floor_div(at_zero, step));
-    } else if (step < 0) {
-        span.last = std::min(span.last, floor_div(at_zero, -step));
-    } else if (at_zero < 0) {
-        span.last = span.first - 1;
-    }
-}
-
-}  // namespace
-
-float extreme_depth(const FacetSet& set, const Facet& f, const Square& square, bool greatest, float best) {
-    const TriangleRecord& plane = set.plane(f);
-    EdgeFunction edge[4];
-    for (int k = 0; k < f.edges; ++k)
-        edge[k] = set.edge(f, k);
-    const std::int32_t x0 = std::max((f.x_low - 128 + 255) >> subtexel_bits, square.x0);
-    const std::int32_t x1 = std::min((f.x_high - 128) >> subtexel_bits, square.x0 + square.side - 1);
-    const std::int32_t y0 = std::max((f.y_low - 128 + 255) >> subtexel_bits, square.y0);
-    const std::int32_t y1 = std::min((f.y_high - 128) >> subtexel_bits, square.y0 + square.side - 1);
-    const auto better = [&](float z) { return greatest ? z > best : z < best; };
-    for (std::int32_t y = y0; y <= y1; ++y) {
-        // The depth is monotone along the row: its extreme is at one end of the span.
-        const DepthRange box = plane_range(plane, x0, x1, y, y);
-        if (!better(greatest ? box.high : box.low)) continue;
-        RowSpan span{x0, x1};
-        for (int k = 0; k < f.edges; ++k)
-            narrow(span, edge[k].A, edge[k].B * (std::int64_t{y} * subtexel_one + 128) + edge[k].C);
-        if (span.first > span.last) continue;
-        const bool right_end = (plane.a >= 0) == greatest;
-        const float z =
-            depth_at(plane, static_cast<double>(right_end ? span.last : span.first) + 0.5, y + 0.5);
-        if (better(z)) best = z;
     }
     return best;
 }

@@ -50,10 +50,10 @@ class Judge {
     /// How the intervals of all texels come about, as far as it is the same for all.
     struct Course {
         enum Kind { uncertain, nothing, point, solid, open } kind = uncertain;
-        Layer first, last;      ///< solid: entry and exit; open: the surface and what follows it
-        bool followed = false;  ///< open: something follows
-        bool exact = true;      ///< false: the order is certain, but not which surface is first or last
-        float deepest = 2.0f;   ///< every texel's interval is decided by this depth
+        Layer first, last;                         ///< solid: entry and exit
+        std::size_t next_begin = 0, next_end = 0;  ///< open: layers that may follow it, none: nothing does
+        bool exact = true;     ///< false: the order is certain, but not which surface is first or last
+        float deepest = 2.0f;  ///< every texel's interval is decided by this depth
     };
     /// A set of facets that hang together within the square.
     struct Group {
@@ -70,9 +70,11 @@ class Judge {
     Layer layer_of(const Group& group, std::uint32_t root, const Square& square, const Listed& member) const;
     bool covers_first_texel(const Listed& l, const Square& square) const;
     Course course(const Square& square);
+    Course up_to_next(const Square& square);
+    Course counted(const Square& square);
+    bool takes_meshes(const Course& course) const;
     bool put_in_order(std::span<Layer> cluster, const Square& square) const;
-    bool certain_order(const Layer& p, const Layer& q, const Square& square) const;
-    void follow(std::size_t k, std::size_t ordered, Course& c) const;
+    bool certainly_before(const Layer& p, const Layer& q, const Square& square, bool or_equal) const;
     float exit_bound() const;
     float extreme(const Layer& layer, const Square& square, std::span<const Listed> list,
                   bool greatest) const;

@@ -9,28 +9,26 @@ bool comes_before(const LayerCrossing& p, const LayerCrossing& q) {
     return std::tie(p.depth, p.crossing, p.triangle) < std::tie(q.depth, q.crossing, q.triangle);
 }
 
-float just_before(float depth, float floor) {
-    const float below = std::nextafterf(depth, -1.0f);
-    return below > floor ? below : floor;
+float just_before(float depth) {
+    return std::nextafterf(depth, -1.0f);
 }
 
 DepthInterval interval_of(std::span<const LayerCrossing> ordered, Receivers receivers) {
-    int inside = 0;
-    float entry = 1.0f;
-    for (std::size_t i = 0; i < ordered.size(); ++i) {
-        const auto [depth, crossing, triangle] = ordered[i];
-        if (inside == 0) {
-            if (crossing == Crossing::open && receivers == Receivers::static_only) {
-                const bool last = i + 1 == ordered.size();
-                return {depth, last ? 1.0f : just_before(ordered[i + 1].depth, depth)};
-            }
-            if (crossing != Crossing::entry) return {depth, depth};
-            entry = depth;
+    if (ordered.empty()) return {};
+    const float first = ordered.front().depth;
+    if (receivers == Receivers::static_only) {
+        for (const LayerCrossing& next : ordered) {
+            if (next.depth > first) return {first, just_before(next.depth)};
         }
-        if (crossing == Crossing::entry) ++inside;
-        if (crossing == Crossing::exit && --inside == 0) return {entry, depth};
+        return {first, 1.0f};
     }
-    return {entry, entry};
+    if (ordered.front().crossing != Crossing::entry) return {first, first};
+    int inside = 0;
+    for (const LayerCrossing& c : ordered) {
+        if (c.crossing == Crossing::entry) ++inside;
+        if (c.crossing == Crossing::exit && --inside == 0) return {first, c.depth};
+    }
+    return {first, first};
 }
 
 }  // namespace obscura

@@ -144,60 +144,73 @@ void insert_all(const TriangleRecord* records, const std::uint32_t* list, std::s
     });
 }
 
-/// The counter of intervals.h over sixteen rays. All lanes of a row walk the layers together.
-struct Counter {
-    I32 inside = splat(std::int32_t{0});
-    F32 entry = splat(1.0f);
-    F32 result_entry = splat(1.0f), result_exit = splat(1.0f);
-    Mask active = equal(splat(std::int32_t{0}), splat(std::int32_t{0}));  ///< not yet decided
-    Mask waiting = ~active;  ///< an open crossing that waits for the next surface
-    bool static_receivers = false;
+struct Layer16 {
+    Mask present;
+    F32 depth;
+    I32 depth_bits, kind;
+};
 
-    OBSCURA_INLINE void decide(const Mask& lanes_, const F32& first, const F32& last) {
-        result_entry = select(lanes_, first, result_entry);
-        result_exit = select(lanes_, last, result_exit);
+OBSCURA_INLINE Layer16 layer_of(const I32& key) {
+    const I32 code = key ^ splat(INT32_MIN);
+    // Logical shift of the unsigned code; the result is below 2^30.
+    const I32 depth_bits = shift_right<2>(code) & splat(0x3fffffff);
+    return {~equal(key, splat(no_layer)), bitcast_f32(depth_bits), depth_bits, code & splat(3)};
+}
+
+/// The intervals of sixteen rays in the making. All lanes of a row walk the layers together.
+struct Intervals16 {
+    F32 entry = splat(1.0f), exit = splat(1.0f);
+    Mask active = equal(splat(std::int32_t{0}), splat(std::int32_t{0}));  ///< not yet decided
+    Mask met = ~active;                                                   ///< has met a surface
+};
+
+/// From the first surface up to the next deeper one.
+struct UpToNext : Intervals16 {
+    OBSCURA_INLINE void step(const I32& key) {
+        const Layer16 layer = layer_of(key);
+        entry = select(layer.present & ~met, layer.depth, entry);
+        met = met | layer.present;
+        const Mask arrived = active & layer.present & less(entry, layer.depth);
+        exit = select(arrived, bitcast_f32(layer.depth_bits - splat(1)), exit);
+        active = active & ~arrived;
+    }
+    OBSCURA_INLINE void finish() {}
+};
+
+/// The counter of intervals.h.
+struct Counter : Intervals16 {
+    I32 inside = splat(std::int32_t{0});
+
+    OBSCURA_INLINE void decide(const Mask& lanes_, const F32& last) {
+        exit = select(lanes_, last, exit);
         active = active & ~lanes_;
     }
-
     OBSCURA_INLINE void step(const I32& key) {
-        const Mask present = active & ~equal(key, splat(no_layer));
-        const I32 code = key ^ splat(INT32_MIN);
-        const I32 kind = code & splat(3);
-        // Logical shift of the unsigned code; the result is below 2^30.
-        const I32 depth_bits = shift_right<2>(code) & splat(0x3fffffff);
-        const F32 depth = bitcast_f32(depth_bits);
-
-        // An open crossing that waits ends just before this one.
-        const Mask arrived = waiting & present;
-        const F32 before = bitcast_f32(max(depth_bits - splat(1), bitcast_i32(entry)));
-        decide(arrived, entry, before);
-        waiting = waiting & ~arrived;
-        const Mask now = present & ~arrived;
-
-        const Mask outside = equal(inside, splat(std::int32_t{0}));
-        const Mask is_entry = equal(kind, splat(static_cast<std::int32_t>(Crossing::entry)));
-        const Mask is_exit = equal(kind, splat(static_cast<std::int32_t>(Crossing::exit)));
-        const Mask is_open = ~(is_entry | is_exit);
-        entry = select(now & outside, depth, entry);
-
-        const Mask alone = now & outside & ~is_entry;
-        if (static_receivers) {
-            waiting = waiting | (alone & is_open);
-            decide(alone & is_exit, depth, depth);
-        } else {
-            decide(alone, depth, depth);
-        }
-        inside = inside + select(now & is_entry, splat(1), splat(std::int32_t{0})) -
-                 select(now & is_exit, splat(1), splat(std::int32_t{0}));
-        decide(now & is_exit & ~outside & equal(inside, splat(std::int32_t{0})), entry, depth);
+        const Layer16 layer = layer_of(key);
+        const Mask now = active & layer.present;
+        const Mask is_entry = equal(layer.kind, splat(static_cast<std::int32_t>(Crossing::entry)));
+        const Mask is_exit = equal(layer.kind, splat(static_cast<std::int32_t>(Crossing::exit)));
+        const Mask first = now & ~met;
+        entry = select(first, layer.depth, entry);
+        met = met | layer.present;
+        decide(first & ~is_entry, layer.depth);
+        const Mask counts = now & ~(first & ~is_entry);
+        inside = inside + select(counts & is_entry, splat(1), splat(std::int32_t{0})) -
+                 select(counts & is_exit, splat(1), splat(std::int32_t{0}));
+        decide(counts & is_exit & equal(inside, splat(std::int32_t{0})), layer.depth);
     }
-
-    /// After the last layer: waiting sheets reach to the end, counters that never closed are surfaces.
-    OBSCURA_INLINE void finish() {
-        decide(active & waiting, entry, splat(1.0f));
-        decide(active, entry, entry);
-    }
+    /// Counters that never closed are surfaces.
+    OBSCURA_INLINE void finish() { decide(active & met, entry); }
 };
+
+template <class Rule>
+OBSCURA_INLINE void intervals_of(const LayerStack& stack, std::int32_t row, DepthInterval* out) {
+    Rule rule;
+    for (std::int32_t l = 0; l < stack.filled[row] && any(rule.active); ++l)
+        rule.step(load(stack.keys + stack.place(row, l)));
+    rule.finish();
+    store_interleaved(&out->entry, rule.entry, rule.exit);
+}
 
 }  // namespace
 
@@ -214,18 +227,16 @@ void layer_tile_with_triangles(const TriangleRecord* records, const std::uint32_
 void interval_tile(const LayerStack& stack, const TileRect& tile, bool static_receivers,
                    DepthInterval* out) noexcept {
     for (std::int32_t at = 0; at < tile.width * tile.height; at += lanes) {
-        const std::int32_t row = at / lanes, filled = stack.filled[row];
-        if (filled == 0) {
+        const std::int32_t row = at / lanes;
+        if (stack.filled[row] == 0) {
             store_interleaved(&out[at].entry, splat(1.0f), splat(1.0f));
             continue;
         }
-        Counter counter;
-        counter.static_receivers = static_receivers;
-        for (std::int32_t l = 0; l < filled && any(counter.active); ++l) {
-            counter.step(load(stack.keys + stack.place(row, l)));
+        if (static_receivers) {
+            intervals_of<UpToNext>(stack, row, out + at);
+        } else {
+            intervals_of<Counter>(stack, row, out + at);
         }
-        counter.finish();
-        store_interleaved(&out[at].entry, counter.result_entry, counter.result_exit);
     }
 }
 

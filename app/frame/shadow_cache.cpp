@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes when the same inputs give other trees.
-constexpr std::uint32_t construction_version = 2;
+constexpr std::uint32_t construction_version = 3;
 
 /// Two halves of a key; large arrays enter both by one hash of 64 bits.
 class KeyHasher {

@@ -36,9 +36,12 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 integer_key("filter_px",
                             "Side of the percentage-closer filter, in texels; with method \"map\" 1, 3 or 5.")
                     .one_of({1, 3, 5, 7, 9, 11, 13, 15})),
-        key_row(&ShadowSettings::normal_offset_texels,
-                number_key("normal_offset_texels", "Bias of receivers on open surfaces; solids need none.")
-                    .in({0, 100})),
+        key_row(
+            &ShadowSettings::normal_offset_texels,
+            number_key(
+                "normal_offset_texels",
+                "Moves receivers on open surfaces towards the light; only receivers = \"any\" may need it.")
+                .in({0, 100})),
         word_row_if_given(&ShadowSettings::receivers, receivers_words, "receivers",
                           "As in [render], whose value is the default."),
         word_row_if_given(

@@ -37,7 +37,7 @@ struct ShadowSettings {
     int resolution = auto_resolution;
     int filter_px = 3;  ///< PCF kernel side in texels, odd: to 5 (map) or 15 (compressed)
     Receivers receivers = Receivers::static_only;
-    double normal_offset_texels = 1.5;  ///< bias of receivers on open components only
+    double normal_offset_texels = 0;  ///< of receivers on open components only
     // Compressed only.
     ShadowScope scope = ShadowScope::frame;
     ShadowFilter filter = ShadowFilter::pcf;

@@ -50,6 +50,37 @@ void write_accuracy(Out out, const std::vector<AccuracyRow>& rows) {
     }
 }
 
+void write_sweep(Out out, const std::vector<SweepRow>& rows) {
+    if (rows.empty()) return;
+    fmt::format_to(
+        out,
+        "\n## Default shadows against exact rays\n\nOne tap per pixel, trees built for the picture, at the "
+        "resolution that \"auto\" finds and at 1,048,576.\n\n"
+        "| scene | sun, degrees | texels | wrong % | pixels | shown lit | why | MB | built in s |\n"
+        "|---|--:|--:|--:|--:|--:|---|--:|--:|\n");
+    double sum = 0, worst = 0;
+    std::size_t of_auto = 0;
+    for (const SweepRow& row : rows) {
+        if (!row.problem.empty()) {
+            fmt::format_to(out, "| {} | {} | {} | {} |\n", row.scene, row.elevation_deg, size_name(row.asked),
+                           row.problem);
+            continue;
+        }
+        const double percent = 100 * row.wrong.fraction();
+        fmt::format_to(out, "| {} | {} | {}{} | {:.4f} | {} | {} | {} | {:.1f} | {:.2f} |\n", row.scene,
+                       row.elevation_deg, row.asked == 0 ? "auto, " : "", size_name(row.found), percent,
+                       row.wrong.wrong, row.wrong.leaks, kinds_text(row.wrong),
+                       megabytes(static_cast<std::int64_t>(row.bytes)), row.build_s);
+        if (row.asked != 0) continue;
+        sum += percent;
+        worst = std::max(worst, percent);
+        ++of_auto;
+    }
+    if (of_auto > 0)
+        fmt::format_to(out, "\nAt auto: {:.4f} % on average, {:.4f} % at worst.\n",
+                       sum / static_cast<double>(of_auto), worst);
+}
+
 void write_times(Out out, const std::vector<TimeRow>& rows) {
     if (rows.empty()) return;
     fmt::format_to(
@@ -234,6 +265,21 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
     return text;
 }
 
+std::string sweep_csv(const std::vector<SweepRow>& rows) {
+    std::string text =
+        "scene,triangles,elevation_deg,asked,found,bytes,build_s,covered,wrong,wrong_percent,leaks,open,"
+        "grazing,"
+        "outline,inside,problem\n";
+    for (const SweepRow& row : rows) {
+        const WrongPixels& w = row.wrong;
+        fmt::format_to(Out(text), "{},{},{},{},{},{},{:.3f},{},{},{:.6f},{},{},{},{},{},{}\n", row.scene,
+                       row.triangles, row.elevation_deg, row.asked, row.found, row.bytes, row.build_s,
+                       w.covered, w.wrong, 100 * w.fraction(), w.leaks, w.by_kind[0], w.by_kind[1],
+                       w.by_kind[2], w.by_kind[3], row.problem.empty() ? "" : "left out");
+    }
+    return text;
+}
+
 std::string times_csv(const std::vector<TimeRow>& rows) {
     std::string text =
         "scene,triangles,method,size,job,threads,runs,median_ms,min_ms,max_ms,lookups,million_per_s_per_"
@@ -284,6 +330,7 @@ std::string shadow_markdown(const ShadowResults& results, const BenchOptions& op
     text += summary_markdown(results);
     text += '\n' + machine_markdown({});
     write_accuracy(out, results.accuracy);
+    write_sweep(out, results.sweep);
     write_ratios(out, results.times);
     if (!results.times.empty()) write_build_budget(out, results.times);
     write_times(out, results.times);
@@ -297,6 +344,7 @@ void write_shadow_report(const ShadowResults& results, const BenchOptions& optio
     // A table without rows leaves the file of an earlier run alone.
     const auto unless_empty = [](const auto& rows, auto csv) { return rows.empty() ? "" : csv(rows); };
     write_files(options, {{"shadows_accuracy.csv", unless_empty(results.accuracy, accuracy_csv)},
+                          {"shadows_wrong.csv", unless_empty(results.sweep, sweep_csv)},
                           {"shadows_times.csv", unless_empty(results.times, times_csv)},
                           {"shadows_trees.csv", unless_empty(results.sizes, trees_csv)},
                           {"shadows_directions.csv", unless_empty(results.directions, directions_csv)},

@@ -30,12 +30,13 @@ MethodStyle shadow_style(const std::string& method);
 std::string size_tics();
 
 std::string accuracy_csv(const std::vector<AccuracyRow>& rows);
+std::string sweep_csv(const std::vector<SweepRow>& rows);
 std::string times_csv(const std::vector<TimeRow>& rows);
 std::string trees_csv(const std::vector<SizeRow>& rows);
 std::string directions_csv(const std::vector<DirectionRow>& rows);
 std::string shadow_markdown(const ShadowResults& results, const BenchOptions& options);
 
-/// Writes shadows.md and shadows_{accuracy,times,trees,directions}.csv, those that have rows, into
+/// Writes shadows.md and shadows_{accuracy,wrong,times,trees,directions}.csv, those that have rows, into
 /// options.out. Throws OutputError.
 void write_shadow_report(const ShadowResults& results, const BenchOptions& options);
 

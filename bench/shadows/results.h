@@ -67,8 +67,22 @@ struct DirectionRow {
     double bottom_up_s = 0, top_down_s = 0;  ///< from intervals to the tree
 };
 
+/// The default shadow of a scene under one sun against exact rays.
+struct SweepRow {
+    std::string scene;
+    std::size_t triangles = 0;
+    double elevation_deg = 0;
+    int asked = 0;  ///< texels a side; 0: auto
+    int found = 0;  ///< what it came to
+    std::uint64_t bytes = 0;
+    double build_s = 0;
+    WrongPixels wrong;
+    std::string problem;  ///< why there is no result
+};
+
 struct ShadowResults {
     std::vector<AccuracyRow> accuracy;
+    std::vector<SweepRow> sweep;
     std::vector<TimeRow> times;
     std::vector<SizeRow> sizes;
     std::vector<DirectionRow> directions;

@@ -6,6 +6,10 @@
 
 #include "bench/harness/report.h"
 #include "bench/shadows/report.h"
+#include "bench/shadows/sweep_scenes.h"
+#ifdef OBSCURA_HAS_EMBREE
+#include "bench/shadows/wrong_sweep.h"
+#endif
 #include "core/error.h"
 
 namespace obscura {
@@ -19,9 +23,9 @@ std::vector<int> doublings(int first, int last) {
     return sizes;
 }
 
-std::vector<ShadowRecipe> recipes_of(const BenchOptions& options) {
+std::vector<ShadowRecipe> recipes_of(const BenchOptions& options, std::vector<ShadowRecipe> all) {
     std::vector<ShadowRecipe> chosen;
-    for (ShadowRecipe& recipe : shadow_recipes(options.data, options.quick)) {
+    for (ShadowRecipe& recipe : all) {
         if (recipe.name.find(options.scene) != std::string::npos) chosen.push_back(std::move(recipe));
     }
     if (chosen.empty()) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
@@ -73,7 +77,10 @@ std::string left_out(const ShadowBenchPlan& plan, const std::string& scene, int 
 int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& peers) {
     const auto wants = [&](const char* part) { return options.part.empty() || options.part == part; };
     const ShadowBenchPlan plan = shadow_bench_plan(options.quick);
-    const std::vector<ShadowRecipe> recipes = recipes_of(options);
+    const bool sweeps = options.part == "wrong-pixels";
+    const std::vector<ShadowRecipe> recipes = recipes_of(
+        options, sweeps && options.data && !options.quick ? sweep_recipes(*options.data)
+                                                          : shadow_recipes(options.data, options.quick));
     make_output_folder(options);
     ShadowResults results;
     // Times first: their workers must be forked before this process starts threads.
@@ -100,6 +107,13 @@ int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& pe
 #else
         options.say(
             fmt::format("{}: this build has no Embree, so no exact rays to compare with", recipe.name));
+#endif
+    }
+    for (const ShadowRecipe& recipe : recipes) {
+        if (!wants("wrong-pixels")) break;
+#ifdef OBSCURA_HAS_EMBREE
+        for (SweepRow& row : measure_sweep(recipe, plan, options))
+            results.sweep.push_back(std::move(row));
 #endif
     }
     write_shadow_report(results, options);

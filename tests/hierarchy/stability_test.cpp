@@ -93,14 +93,15 @@ TEST(ShadowStability, SlopedOpenSheetsCostTheArea) {
 }
 
 TEST(ShadowStability, FinsWithoutThicknessCostTheArea) {
-    // Closed, so no setting for open sheets mends them; a plate of any thickness does, in the end.
+    // To receivers that may be anywhere; a plate of any thickness mends it, in the end. To the scene's own
+    // surfaces a fin is a sheet: one solid fewer, the same tree as that of the open sheet.
     const Mesh fin = sloped_fin();
     expect_exact(fin, sun_view(fin, from_above, 512));
     const Row fin_1k = build_row("fin", fin, sun_view(fin, from_above, 1024));
     const Row fin_2k = build_row("fin", fin, sun_view(fin, from_above, 2048));
     EXPECT_GT(ratio(fin_2k.nodes, fin_1k.nodes), 3.9);
     const Row as_static = build_row("fin", fin, sun_view(fin, from_above, 2048), Receivers::static_only);
-    EXPECT_EQ(as_static.nodes, fin_2k.nodes);
+    EXPECT_LT(ratio(as_static.nodes, fin_2k.nodes), 0.02);
     for (const double thickness : {0.001, 0.01, 0.1}) {
         const Mesh plate = sloped_plate(thickness);
         const std::string name = "plate of " + std::to_string(thickness).substr(0, 5) + " m";
@@ -171,6 +172,8 @@ TEST(ShadowStability, ALightInsideASolidCostsTheArea) {
     const Row solid_2k = build_row("lamp inside a solid", solid, lamp_view(2048));
     EXPECT_GT(ratio(solid_2k.nodes, solid_1k.nodes), 3.9);
     EXPECT_GT(solid_2k.per_texel, 0.5);
+    const Row static_2k = build_row("lamp inside a solid", solid, lamp_view(2048), Receivers::static_only);
+    EXPECT_LT(static_2k.per_texel, 0.02);
     const Row hollow_2k = build_row("lamp between walls", hollow, lamp_view(2048));
     EXPECT_LT(hollow_2k.per_texel, 0.02);
 }

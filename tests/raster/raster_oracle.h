@@ -67,10 +67,11 @@ inline std::vector<Hit> hits_at(const std::vector<TriangleRecord>& records, int 
 inline DepthInterval interval(const std::vector<Hit>& hits, bool static_receivers) {
     if (hits.empty()) return {1.0f, 1.0f};
     const Hit& first = hits.front();
-    if (first.kind == 1 && static_receivers) {
-        if (hits.size() == 1) return {first.depth, 1.0f};
-        const float below = __builtin_nextafterf(hits[1].depth, -1.0f);
-        return {first.depth, std::max(first.depth, below)};
+    if (static_receivers) {
+        float next = 2.0f;
+        for (const Hit& h : hits)
+            next = h.depth == first.depth ? next : std::min(next, h.depth);
+        return {first.depth, next == 2.0f ? 1.0f : __builtin_nextafterf(next, -1.0f)};
     }
     if (first.kind != 0) return {first.depth, first.depth};
     int sum = 0;

@@ -1,0 +1,223 @@
+// Shadows where surfaces touch, coincide or enclose: whatever a map stores there, what is lit stays lit and
+// what is dark stays dark. Drawn at random; each scene with dense maps and with trees.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "tests/frame/scenes.h"
+#include "tests/frame/shadow_rays.h"
+
+namespace obscura {
+namespace {
+
+using namespace frame_scenes;
+
+struct Source {
+    std::mt19937 bits;
+    explicit Source(unsigned seed) : bits(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * (static_cast<double>(bits()) / 4294967296.0);
+    }
+    int below(int n) { return static_cast<int>(bits() % static_cast<unsigned>(n)); }
+};
+
+/// Faces of the lattice that boxes are put on; not dyadic, so planes round.
+struct Lattice {
+    double step, origin;
+    float at(int i) const { return static_cast<float>(origin + step * i); }
+};
+
+/// Boxes that fill cells of a lattice, so that neighbours have a face, an edge or a corner in common.
+Scene touching_boxes(Source& source, const Lattice& lattice) {
+    Scene scene = empty_scene(96, 72);
+    std::set<std::tuple<int, int, int>> taken;
+    while (taken.size() < 7) {
+        const std::tuple cell{source.below(3), source.below(3), source.below(3)};
+        if (!taken.insert(cell).second) continue;
+        const auto [i, j, k] = cell;
+        add(scene,
+            box({lattice.at(i), lattice.at(j), lattice.at(k)},
+                {lattice.at(i + 1), lattice.at(j + 1), lattice.at(k + 1)}),
+            0);
+    }
+    const double middle = lattice.origin + 1.5 * lattice.step, far = 4.5 * lattice.step;
+    scene.camera.eye = {middle + far * source.between(0.3, 1), middle + far * source.between(0.5, 1),
+                        middle + far * source.between(0.3, 1)};
+    scene.camera.look_at = {middle, middle, middle};
+    scene.camera.vfov_deg = 45;
+    return scene;
+}
+
+SceneLight light_over(Source& source, const Lattice& lattice) {
+    const double middle = lattice.origin + 1.5 * lattice.step;
+    const int kind = source.below(4);
+    if (kind == 0) return directional({0, -1, 0}, {1, 1, 1}, 3, 1024);
+    if (kind == 1) {
+        return directional({source.between(-1, 1), source.between(-1, -0.2), source.between(-1, 1)},
+                           {1, 1, 1}, 3, 1024);
+    }
+    // On the plane of a face, or anywhere.
+    const double height =
+        source.below(2) == 0 ? static_cast<double>(lattice.at(3)) : middle + 4 * lattice.step;
+    const Vec3d place{middle + lattice.step * source.between(1.8, 3), height,
+                      middle + lattice.step * source.between(1.8, 3)};
+    SceneLight light = at_point(kind == 2 ? LightKind::point : LightKind::spot, place,
+                                Vec3d{middle, middle, middle} - place, {1, 1, 1});
+    light.light.outer_cone_deg = 45;
+    light.shadow.resolution = 1024;
+    return light;
+}
+
+void expect_agreement(Scene& scene, double margin_m, int& lit, int& dark) {
+    for (const ShadowMethod method : {ShadowMethod::map, ShadowMethod::compressed}) {
+        for (const int filter : {1, 3}) {
+            scene.lights[0].shadow.method = method;
+            scene.lights[0].shadow.filter_px = filter;
+            const RayCount count = compare_with_rays(scene, margin_m);
+            const std::string how = (method == ShadowMethod::map ? "map, filter " : "compressed, filter ") +
+                                    std::to_string(filter);
+            EXPECT_EQ(count.acne, 0) << "of " << count.lit << ", " << how;
+            // Between sheets a tree may store any depth; taps that miss the lower one's edge are then lit.
+            const bool beside_edges = method == ShadowMethod::compressed && filter > 1;
+            EXPECT_LE(count.leaks, beside_edges ? 2 : 0) << "of " << count.dark << ", " << how;
+            lit += count.lit;
+            dark += count.dark;
+        }
+    }
+}
+
+TEST(CoincidentShadows, TouchingBoxes) {
+    int lit = 0, dark = 0;
+    for (unsigned seed = 0; seed < 24; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Source source(seed);
+        const Lattice lattice{source.between(0.1, 3), source.between(-5, 5)};
+        Scene scene = touching_boxes(source, lattice);
+        scene.lights.push_back(light_over(source, lattice));
+        expect_agreement(scene, 0.06 * lattice.step, lit, dark);
+    }
+    EXPECT_GT(lit, 50'000);
+    EXPECT_GT(dark, 20'000);
+}
+
+/// Both orientations of one sheet, as leaves and signs are modelled: as one part and as two.
+TEST(CoincidentShadows, SheetsBackToBack) {
+    int lit = 0, dark = 0;
+    for (unsigned seed = 0; seed < 12; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Source source(100 + seed);
+        Scene scene = empty_scene(96, 72);
+        add(scene, box({-3, -0.5, -3}, {3, 0, 3}), 0);
+        for (int sheet = 0; sheet < 3; ++sheet) {
+            const float x = static_cast<float>(source.between(-1, 1)),
+                        y = static_cast<float>(source.between(0.4, 2)),
+                        z = static_cast<float>(source.between(-1, 1)),
+                        tilt = static_cast<float>(source.between(-0.3, 0.3));
+            Mesh quad = plane(1.2, 0.9);
+            for (Vec3f& p : quad.positions)
+                p.y += tilt * p.x;
+            compute_normals(quad, 0);
+            Mesh back = quad;
+            for (Triangle& t : back.triangles)
+                std::swap(t.v[1], t.v[2]);
+            for (Vec3f& n : back.normals)
+                n = -n;
+            if (source.below(2) == 0) {
+                append_mesh(quad, back);
+                add(scene, quad, 0, {x, y, z});
+            } else {
+                add(scene, quad, 0, {x, y, z});
+                add(scene, back, 0, {x, y, z});
+            }
+        }
+        scene.camera.eye = {2.5, 4, 3.5};
+        scene.camera.look_at = {0, 0.5, 0};
+        scene.lights.push_back(
+            directional({source.between(-0.6, 0.6), -1, source.between(-0.6, 0.6)}, {1, 1, 1}, 3, 1024));
+        expect_agreement(scene, 0.05, lit, dark);
+    }
+    EXPECT_GT(lit, 10'000);
+    EXPECT_GT(dark, 1'000);
+}
+
+/// A lamp and the camera inside a box whose faces look outwards, with a crate in it: nothing but the crate's
+/// shadow.
+TEST(CoincidentShadows, RoomsModelledAsSolids) {
+    int lit = 0, dark = 0;
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Source source(200 + seed);
+        Scene scene = empty_scene(96, 72);
+        add(scene, box({-2, 0, -1.5}, {2, 2, 1.5}), 0);
+        add(scene, box({-0.7, 0, -0.5}, {-0.1, static_cast<float>(source.between(0.3, 1.4)), 0.1f}), 0);
+        scene.camera.eye = {1.7, 1.5, 1.3};
+        scene.camera.look_at = {-0.5, 0.6, -0.5};
+        scene.camera.vfov_deg = 70;
+        SceneLight lamp = at_point(LightKind::point, {source.between(0.2, 1.5), 1.7, source.between(-1, 1)},
+                                   {0, -1, 0}, {1, 1, 1});
+        lamp.shadow.resolution = 1024;
+        scene.lights.push_back(lamp);
+        for (const ShadowMethod method : {ShadowMethod::map, ShadowMethod::compressed}) {
+            scene.lights[0].shadow.method = method;
+            const RayCount count = compare_with_rays(scene, 0.05);
+            EXPECT_EQ(count.acne, 0) << "of " << count.lit;
+            EXPECT_EQ(count.leaks, 0) << "of " << count.dark;
+            lit += count.lit;
+            dark += count.dark;
+        }
+    }
+    EXPECT_GT(lit + dark, 20'000);
+}
+
+/// The same room, sealed, under a sun outside: away from its edges nothing is lit, not even what stands in
+/// it.
+TEST(CoincidentShadows, NothingInsideASolidIsLitFromOutside) {
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Source source(300 + seed);
+        Scene scene = empty_scene(96, 72);
+        add(scene, box({-2, 0, -1.5}, {2, 2, 1.5}), 0);
+        add(scene, box({-0.8, 0, -0.6}, {-0.2, 1.6f, 0}), 0);
+        scene.camera.eye = {1.7, 1.5, 1.3};
+        scene.camera.look_at = {-0.5, 0.6, -0.5};
+        scene.camera.vfov_deg = 40;
+        scene.lights.push_back(
+            directional({source.between(-1, 1), -1, source.between(-1, 1)}, {1, 1, 1}, 3, 2048));
+        for (const ShadowMethod method : {ShadowMethod::map, ShadowMethod::compressed}) {
+            scene.lights[0].shadow.method = method;
+            const Frame frame = render_frame(scene, all_channels());
+            const CameraRays rays = camera_rays(scene.camera, frame.width, frame.height);
+            int looked_at = 0, lit = 0;
+            for (int y = 0; y < frame.height; ++y) {
+                for (int x = 0; x < frame.width; ++x) {
+                    const auto along = [&](int k) {
+                        const double dir =
+                            rays.dir0[k] + (x + 0.5) * rays.dir_x[k] + (y + 0.5) * rays.dir_y[k];
+                        return rays.eye[k] + dir * static_cast<double>(frame.depth_m(x, y));
+                    };
+                    const Vec3d p{along(0), along(1), along(2)};
+                    // A map ends a texel or two beyond the room's edges: how many of its walls are near?
+                    const int walls =
+                        (std::fabs(p.x) > 1.97) + (p.y < 0.03 || p.y > 1.97) + (std::fabs(p.z) > 1.47);
+                    // Faces that light grazes reach through the roof within a texel.
+                    const double facing =
+                        -dot(to_double(frame.normal(x, y)), scene.lights[0].light.direction);
+                    if (walls > 1 || std::fabs(facing) < 0.3) continue;
+                    ++looked_at;
+                    lit += frame.shadow(x, y) != 0.0f;
+                }
+            }
+            // As above, beside the crate.
+            EXPECT_LE(lit, method == ShadowMethod::compressed ? 2 : 0);
+            EXPECT_GT(looked_at, 2000);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace obscura
