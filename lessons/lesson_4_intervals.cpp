@@ -104,10 +104,10 @@ Image<Rgb8> lesson_4_intervals(const Exec& exec) {
                 "a sheet's depth\nis exact: [z, z].\nSomething may\ncome to stand\nright behind it");
     draw_row(f, scene, fixed, Receivers::static_only, exec);
     f.text({40, 732}, "static", lettering::head);
-    f.paragraph({40, 758}, "only these\nsurfaces ask:\na sheet's depth\nmay lie anywhere\nup to the next");
+    f.paragraph({40, 758}, "only these\nsurfaces ask:\nfrom the first\nto the next, all\ndepths will do");
     f.legend({180, 936}, {{Mark::line, ink::dark, "counter"},
                           {Mark::square, ink::blue, "interval [entry, exit]"},
-                          {Mark::square, ink::yellow, "stored depth: its middle, 1 where nothing is"},
+                          {Mark::square, ink::yellow, "stored depth: its middle or near its entry, 1 where nothing is"},
                           {Mark::line, ink::green, "open sheet"},
                           {Mark::line, ink::orange, "ray"}});
     f.source_line(4,
