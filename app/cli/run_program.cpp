@@ -1,6 +1,5 @@
 #include "app/cli/run_program.h"
 
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -19,11 +18,11 @@
 namespace obscura {
 namespace {
 
-/// Says the message and returns the code.
+/// Says the message, without asking for memory, and returns the code.
 int report(ExitCode code, const std::string& message) {
     const bool colour = wants_colour(stderr);
-    say(fmt::format("obscura: {}error:{} {}\n", colour ? "\x1b[1;31m" : "", colour ? "\x1b[0m" : "",
-                    message));
+    (void)std::fprintf(stderr, "obscura: %serror:%s %s\n", colour ? "\x1b[1;31m" : "",
+                       colour ? "\x1b[0m" : "", message.c_str());
     return static_cast<int>(code);
 }
 

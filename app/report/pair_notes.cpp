@@ -29,10 +29,8 @@ KindTotal total_of(const std::vector<Conflict>& conflicts, ConflictKind kind) {
     return total;
 }
 
-/// How many of them the system holds back (see edit.cpp). A remap's curve is taken as it is.
-std::int64_t held_back(const KindTotal& total, ConflictKind kind, const StereoSettings& settings) {
-    const EditParams& p = settings.edit;
-    if (settings.remap.kind != RemapKind::none) return 0;
+/// How many of them the system holds back (see edit.cpp).
+std::int64_t held_back(const KindTotal& total, ConflictKind kind, const EditParams& p) {
     switch (kind) {
         case ConflictKind::depth_inversion:
             return p.reset_inversions ? total.pixels : 0;
@@ -46,7 +44,10 @@ std::int64_t held_back(const KindTotal& total, ConflictKind kind, const StereoSe
     return 0;
 }
 
-std::string outcome_text(std::int64_t held, std::int64_t pixels) {
+std::string outcome_text(const KindTotal& total, ConflictKind kind, const StereoSettings& settings) {
+    // A remap has no edits and solves nothing: what is told is the map that its curve starts from.
+    if (settings.remap.kind != RemapKind::none) return "before the remap";
+    const std::int64_t held = held_back(total, kind, settings.edit), pixels = total.pixels;
     if (held == 0) return "left as it is";
     if (held == pixels) return "held back before solving";
     return fmt::format("{} held back before solving, {} left as {}", held, pixels - held,
@@ -65,7 +66,7 @@ void add_conflicts(const StereoPair& pair, const StereoSettings& settings, std::
             total.pixels == 1 ? "" : "s", total.worst_px, total.first->what,
             total.places > 1 ? fmt::format(", and {} more", total.places - 1) : "",
             total.inherited > 0 ? fmt::format("; {} of them without edits, too", total.inherited) : "",
-            outcome_text(held_back(total, kind, settings), total.pixels)));
+            outcome_text(total, kind, settings)));
     }
 }
 

@@ -80,6 +80,13 @@ std::string refused(const TemporaryFolder& folder, const std::string& optics,
     return "";
 }
 
+TEST(CheckCommand, TwoSpellingsOfAFileAreOneOutput) {
+    const TemporaryFolder folder;
+    const std::string text =
+        refused(folder, "[[output]]\nfile = \"x.png\"\n[[output]]\nfile = \"./x.png\"\n");
+    EXPECT_NE(text.find("a.toml:11:8: another output has the same 'file'"), std::string::npos) << text;
+}
+
 TEST(CheckCommand, LensesThatNothingHasAreToldAtTheirKey) {
     const TemporaryFolder folder;
     const std::string file = (folder.path / "a.toml").string();
@@ -98,6 +105,15 @@ TEST(CheckCommand, LensesThatNothingHasAreToldAtTheirKey) {
     EXPECT_EQ(refused(folder, "", {"camera.focal_length_mm=1e-320"}).find("input: -D camera.focal_length_mm"),
               0u);
     EXPECT_EQ(refused(folder, "sensor_width_mm = 30\n"), "");
+}
+
+TEST(CheckCommand, EveryTurnOfALensThatTheFormatAllowsIsMade) {
+    const TemporaryFolder folder;
+    for (const char* turn : {"-36000", "3601", "36000"}) {
+        EXPECT_EQ(refused(folder, "aperture = \"iris\"\nmask_px = 64\nradius_px = 4\n",
+                          {"optics.rotation_deg=" + std::string(turn)}),
+                  "");
+    }
 }
 
 TEST(CheckCommand, PatternsOutOfReachAreToldWhereTheLensIs) {

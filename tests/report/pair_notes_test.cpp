@@ -65,7 +65,7 @@ TEST(PairNotes, ARemapHoldsNothingBack) {
     settings.remap.kind = RemapKind::linear;
     for (const ConflictKind kind :
          {ConflictKind::depth_inversion, window, ConflictKind::comfort, ConflictKind::fold})
-        EXPECT_NE(note({conflict(kind, 3, 0)}, settings).find("; left as it is"), std::string::npos);
+        EXPECT_NE(note({conflict(kind, 3, 0)}, settings).find("; before the remap"), std::string::npos);
 }
 
 }  // namespace
