@@ -211,6 +211,13 @@ void check_writable(const fs::path& path, Existing existing) {
     ::unlink(probe.c_str());
 }
 
+fs::path place_of_output(const fs::path& path) {
+    std::error_code error;
+    const fs::path whole = behind_links(fs::absolute(path, error));
+    const fs::path folder = fs::weakly_canonical(directory_of(whole), error);
+    return error ? whole.lexically_normal() : folder / whole.filename();
+}
+
 void remove_pending_outputs() noexcept {
     const int saved = errno;
     for (Slot& s : slots) {

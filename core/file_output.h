@@ -26,6 +26,10 @@ void write_file_atomically(const std::filesystem::path& path, std::span<const st
 /// or it exists and may not be replaced. Call it before hours of rendering.
 void check_writable(const std::filesystem::path& path, Existing existing = Existing::refuse);
 
+/// The file that writing to `path` makes or replaces: absolute, links followed, also those that lead to
+/// nothing yet. Two paths with one place are one file.
+std::filesystem::path place_of_output(const std::filesystem::path& path);
+
 /// Removes the temporaries of writes under way. For signal handlers: async-signal-safe, never blocks.
 void remove_pending_outputs() noexcept;
 

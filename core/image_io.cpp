@@ -143,27 +143,43 @@ std::string srgb_chunk() {
     return chunk;
 }
 
-}  // namespace
-
-Image<Rgba8> decode_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits) {
+/// Four channels of every pixel by stb's `load`, which has been handed nothing that it could trip over.
+template <class Pixel, class Load>
+Image<Pixel> decode_as(std::string_view bytes, const std::string& name, const ImageFileLimits& limits,
+                       Load load) {
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         throw LimitError(fmt::format("{}: a PNG file of {} bytes, the limit is {}", name, bytes.size(),
                                      std::numeric_limits<int>::max()));
     }
-    const PngFile file = walk_png(bytes, name, limits);
+    const PngFile file = walk_png(bytes, name, limits, sizeof(Pixel));
     check_pixel_stream(file, name);
 
     int width = 0, height = 0, channels = 0;
-    const StbBytes decoded{stbi_load_from_memory(reinterpret_cast<const unsigned char*>(bytes.data()),
-                                                 static_cast<int>(bytes.size()), &width, &height, &channels,
-                                                 4)};
+    const std::unique_ptr<void, Free> decoded{load(reinterpret_cast<const unsigned char*>(bytes.data()),
+                                                   static_cast<int>(bytes.size()), &width, &height, &channels,
+                                                   4)};
     if (!decoded) throw InputError(name, fmt::format("PNG cannot be decoded: {}", stbi_failure_reason()));
     CHECK(static_cast<std::uint32_t>(width) == file.header.width &&
           static_cast<std::uint32_t>(height) == file.header.height);
-    Image<Rgba8> image(width, height);
-    static_assert(sizeof(Rgba8) == 4);
-    std::memcpy(image.pixels.data(), decoded.get(), image.pixels.size() * sizeof(Rgba8));
+    Image<Pixel> image(width, height);
+    std::memcpy(image.pixels.data(), decoded.get(), image.pixels.size() * sizeof(Pixel));
     return image;
+}
+static_assert(sizeof(Rgba8) == 4 && sizeof(Rgba16) == 8);
+
+}  // namespace
+
+Image<Rgba8> decode_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits) {
+    return decode_as<Rgba8>(bytes, name, limits, stbi_load_from_memory);
+}
+
+Image<Rgba16> decode_png16(std::string_view bytes, const std::string& name, const ImageFileLimits& limits) {
+    return decode_as<Rgba16>(bytes, name, limits, stbi_load_16_from_memory);
+}
+
+bool has_16_bit_samples(std::string_view bytes) {
+    constexpr std::size_t bit_depth = 24;  // behind signature, length and type of IHDR, width and height
+    return is_png(bytes) && bytes.size() > bit_depth && bytes[bit_depth] == 16;
 }
 
 std::string encode_png(ImageView<const Rgb8> image) {

@@ -1,6 +1,6 @@
 #pragma once
-// Image files: PNG (8-bit sRGB in and out, 16-bit grey out) and PFM (linear float). Everything is decoded
-// from and encoded to memory; file_output.h writes the bytes.
+// Image files: PNG (8-bit sRGB in and out, 16-bit codes in, 16-bit grey out) and PFM (linear float).
+// Everything is decoded from and encoded to memory; file_output.h writes the bytes.
 
 #include <cstdint>
 #include <string>
@@ -25,6 +25,13 @@ struct ImageFileLimits {
 /// CRC, the pixel stream inflates to exactly the size that the header claims, nothing follows IEND. Throws
 /// InputError with the chunk and byte offset, LimitError with the claimed size.
 Image<Rgba8> decode_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits = {});
+
+/// The same with 16-bit channels: samples of fewer bits are spread over all codes (255 of 255 is 65535).
+Image<Rgba16> decode_png16(std::string_view bytes, const std::string& name,
+                           const ImageFileLimits& limits = {});
+
+/// Whether a PNG file says in front that its samples have 16 bits, which decode_png() would cut.
+bool has_16_bit_samples(std::string_view bytes);
 
 /// PNG files with an sRGB chunk (RGB, RGBA) or linear 16-bit samples (grey, with gAMA 1.0). The same pixels
 /// give the same bytes everywhere. Throws LimitError when the raw pixels exceed 2^31 - 1 bytes.

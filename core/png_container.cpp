@@ -117,12 +117,13 @@ PngHeader read_header(const Chunk& chunk, const std::string& name) {
     return h;
 }
 
-void check_limits(const PngHeader& h, const std::string& name, const ImageFileLimits& limits) {
+void check_limits(const PngHeader& h, const std::string& name, const ImageFileLimits& limits,
+                  std::int64_t pixel_bytes) {
     if (std::max(h.width, h.height) > limits.max_side_px) {
         throw LimitError(fmt::format("{}: PNG claims {} x {} pixels, the limit is {} a side", name, h.width,
                                      h.height, limits.max_side_px));
     }
-    const std::int64_t decoded = std::int64_t{4} * h.width * h.height;
+    const std::int64_t decoded = pixel_bytes * h.width * h.height;
     const std::int64_t most = std::min<std::int64_t>(limits.max_bytes, std::numeric_limits<int>::max());
     if (std::max(decoded, png_raw_size(h)) > most) {
         throw LimitError(fmt::format("{}: PNG claims {} x {} pixels, {} bytes decoded, the limit is {}{}",
@@ -177,12 +178,13 @@ std::int64_t png_raw_size(const PngHeader& h) {
     return bytes;
 }
 
-PngFile walk_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits) {
+PngFile walk_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits,
+                 std::int64_t pixel_bytes) {
     if (!is_png(bytes)) throw InputError(name, "not a PNG file: wrong signature at byte 0");
     PngFile file;
     Chunk chunk = read_chunk(bytes, signature.size(), name);
     file.header = read_header(chunk, name);
-    check_limits(file.header, name, limits);
+    check_limits(file.header, name, limits, pixel_bytes);
 
     bool pixels_ended = false;
     while (chunk.type != "IEND") {

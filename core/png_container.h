@@ -24,8 +24,10 @@ struct PngFile {
 };
 
 /// Walks all chunks: signature, lengths, CRCs, order, header values, limits, IEND at the very end.
-/// Throws InputError with chunk and byte offset, LimitError with the claimed size.
-PngFile walk_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits);
+/// Throws InputError with chunk and byte offset, LimitError with the claimed size, of pixels that take
+/// `pixel_bytes` when decoded.
+PngFile walk_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits,
+                 std::int64_t pixel_bytes = 4);
 
 /// Bytes that the pixel stream inflates to: filtered rows of all passes.
 std::int64_t png_raw_size(const PngHeader& header);

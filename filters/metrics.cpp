@@ -136,13 +136,12 @@ double ssim_index(const Moments& m, double peak) {
 constexpr std::array<std::array<double, 3>, 5> heat{
     {{0, 0, 0}, {40, 30, 150}, {215, 40, 60}, {250, 200, 40}, {255, 255, 255}}};
 
-}  // namespace
-
-Planes split_channels(ImageView<const Rgba8> image, bool with_alpha) {
+template <class Pixel>
+Planes split_codes(ImageView<const Pixel> image, bool with_alpha) {
     Planes planes(with_alpha ? 4 : 3, Image<float>(image.width, image.height));
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
-            const Rgba8 p = image(x, y);
+            const Pixel p = image(x, y);
             planes[0](x, y) = p.r;
             planes[1](x, y) = p.g;
             planes[2](x, y) = p.b;
@@ -150,6 +149,16 @@ Planes split_channels(ImageView<const Rgba8> image, bool with_alpha) {
         }
     }
     return planes;
+}
+
+}  // namespace
+
+Planes split_channels(ImageView<const Rgba8> image, bool with_alpha) {
+    return split_codes(image, with_alpha);
+}
+
+Planes split_channels(ImageView<const Rgba16> image, bool with_alpha) {
+    return split_codes(image, with_alpha);
 }
 
 Planes split_channels(const FloatImage& image) {

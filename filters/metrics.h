@@ -11,11 +11,12 @@
 
 namespace obscura {
 
-/// A picture as one float image per channel, in the units of its file (codes 0..255, or linear).
+/// A picture as one float image per channel, in the units of its file (codes 0..255 or 0..65535, or linear).
 using Planes = std::vector<Image<float>>;
 
 /// Red, green, blue, and alpha on demand.
 Planes split_channels(ImageView<const Rgba8> image, bool with_alpha);
+Planes split_channels(ImageView<const Rgba16> image, bool with_alpha);
 /// One or three channels.
 Planes split_channels(const FloatImage& image);
 

@@ -150,7 +150,7 @@ void require(bool good, const char* name, double value, const char* range) {
 
 void check_common(const ApertureShape& s) {
     require(s.diameter > 0 && s.diameter <= 2, "diameter", s.diameter, "above 0 and at most 2");
-    require(std::fabs(s.rotation_deg) <= 3600, "rotation_deg", s.rotation_deg, "within -3600 to 3600");
+    require(std::fabs(s.rotation_deg) <= 36000, "rotation_deg", s.rotation_deg, "within -36000 to 36000");
     require(std::fabs(s.offset_x) <= 2, "offset_x", s.offset_x, "within -2 to 2");
     require(std::fabs(s.offset_y) <= 2, "offset_y", s.offset_y, "within -2 to 2");
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "optics/aperture_extent.h"
 #include "optics/near_field_methods.h"
 #include "optics/thesis/near_field.h"
 
@@ -80,6 +81,12 @@ const char* near_field_method_name(NearFieldMethod method) {
 
 double fresnel_number(const Aperture& aperture, const NearFieldParams& params) {
     const double half = 0.5 * std::max(aperture.mask.width, aperture.mask.height);
+    return 2 * half * half * turns_of(aperture, params);
+}
+
+double opening_fresnel_number(const Aperture& aperture, const NearFieldParams& params) {
+    const OpenExtent open = open_extent(aperture.mask.view());
+    const double half = 0.5 * std::max(open.width, open.height);
     return 2 * half * half * turns_of(aperture, params);
 }
 

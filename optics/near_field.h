@@ -51,8 +51,12 @@ struct NearFieldReport {
     std::int64_t active_blocks = -1, blocks = -1;  ///< when culling was asked for
 };
 
-/// a^2 / (lambda z), a = half the mask's larger side.
+/// a^2 / (lambda z), a = half the mask's larger side: what the planes and costs of a mask go by.
 double fresnel_number(const Aperture& aperture, const NearFieldParams& params);
+
+/// The same of the light: a = half the longer side of the rectangle around all that is open, which is the
+/// radius of a round hole. 0 when nothing is.
+double opening_fresnel_number(const Aperture& aperture, const NearFieldParams& params);
 
 NearFieldReport plan_near_field(const Aperture& aperture, const PlaneGrid& grid,
                                 const NearFieldParams& params);

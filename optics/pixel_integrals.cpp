@@ -2,6 +2,8 @@
 
 #include "optics/pixel_integrals.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -34,8 +36,13 @@ Cells cells_of(double cell, int radius_px, const std::vector<PixelLight>& lights
     for (const PixelLight& light : lights)
         widest = std::max(widest, light.pixel);
     const double reach = std::ceil((radius_px + 0.5) * widest / cell);
-    if (!(2 * (reach + 2) * (reach + 2) < most_frequencies))
-        throw LimitError("a point spread function needs too many frequencies");
+    const double wanted = 2 * (reach + 2) * (reach + 2);
+    if (!(wanted < most_frequencies)) {
+        throw PatternLimit(
+            fmt::format("the lens's pattern needs {:.3g} frequencies, the limit is {:.3g}; smaller pixels, a "
+                        "larger f-number or a smaller radius need fewer",
+                        wanted, most_frequencies));
+    }
     const int count = static_cast<int>(reach) + 1;
     return {cell, count + 1, count};
 }

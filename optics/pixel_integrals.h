@@ -11,6 +11,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/error.h"
 #include "core/image.h"
 #include "core/isa.h"
 #include "core/vec.h"
@@ -20,6 +21,11 @@ namespace obscura {
 
 /// |F|^2 over a grid of frequencies; must be that of a real mask, equal at q and -q.
 using PowerSource = std::function<Image<float>(const FrequencyGrid&)>;
+
+/// A pattern that more frequencies make than can be computed.
+struct PatternLimit : LimitError {
+    using LimitError::LimitError;
+};
 
 /// How a sensor samples one wavelength's pattern.
 struct PixelLight {
@@ -34,7 +40,8 @@ struct PixelLight {
 Image<Vec3d> integrate_over_pixels(const PowerSource& power, double cell, int radius_px,
                                    const std::vector<PixelLight>& lights, const Exec& exec);
 
-/// Frequencies that this asks of the source: those of all bands, and the first band's.
+/// Frequencies that this asks of the source: those of all bands, and the first band's. Throws PatternLimit,
+/// as the integration does.
 struct PixelIntegralWork {
     std::int64_t frequencies = 0;
     FrequencyGrid band;

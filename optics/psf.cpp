@@ -34,7 +34,7 @@ void check_params(const PsfParams& p) {
     };
     require(p.focal_length_m > 0, "focal length must be positive");
     require(p.f_number > 0 && p.f_number < 1e4, "f-number must be positive");
-    require(p.pixel_m > 0 && p.pixel_m < 1, "pixel size must be positive");
+    require(p.pixel_m > 0 && p.pixel_m <= 1, "pixels must be wider than 0 and at most 1 m");
     require(p.radius_px >= 0 && p.radius_px <= 4096, "kernel radius must be 0 to 4096 pixels");
     check_sampling(p.wavelengths, p.tolerance);
 }

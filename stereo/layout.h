@@ -39,8 +39,8 @@ inline constexpr std::array<std::array<double, 6>, 3> dubois_matrix{{
 }};
 
 /// Display-referred pictures of the same size, linear light, each channel in [0, 1] (tone mapped, before the
-/// sRGB curve); the result likewise. Half layouts of an odd side give the left eye the larger half. CHECKs
-/// that the layout is one picture: not `separate`.
+/// sRGB curve); the result likewise. Half layouts of an odd side give the first picture the larger half.
+/// CHECKs that the layout is one picture: not `separate`.
 Image<Vec3f> lay_out(const Image<Vec3f>& left, const Image<Vec3f>& right, StereoLayout layout);
 
 }  // namespace obscura

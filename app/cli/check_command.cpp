@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <vector>
 
 #include "app/cli/flags.h"
+#include "app/cli/messages.h"
 #include "app/cli/scene_flags.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
@@ -168,8 +168,7 @@ std::string check_report(const CheckOptions& options) {
 }
 
 int check_command(const CheckOptions& options) {
-    const std::string report = check_report(options);
-    std::fputs(report.c_str(), stdout);
+    print(check_report(options));
     return 0;
 }
 

@@ -7,6 +7,8 @@
 #include <variant>
 
 #include "app/cli/flags.h"
+#include "app/cli/messages.h"
+#include "app/cli/targets.h"
 #include "app/scene/file_access.h"
 #include "core/error.h"
 #include "core/image_io.h"
@@ -15,17 +17,26 @@
 namespace obscura {
 namespace {
 
-using Picture = std::variant<Image<Rgba8>, FloatImage>;
+using Picture = std::variant<Image<Rgba8>, Image<Rgba16>, FloatImage>;
 
-Picture read_picture(const std::filesystem::path& path) {
-    const std::string bytes = read_file(path, ImageFileLimits{}.max_bytes);
-    if (is_png(bytes)) return decode_png(bytes, path.string());
-    if (bytes.starts_with("PF") || bytes.starts_with("Pf")) return decode_pfm(bytes, path.string());
+std::string read_bytes(const std::filesystem::path& path) {
+    std::string bytes = read_file(path, ImageFileLimits{}.max_bytes);
+    if (is_png(bytes) || bytes.starts_with("PF") || bytes.starts_with("Pf")) return bytes;
     throw InputError(path.string(), "neither a PNG nor a PFM file");
 }
 
-bool is_opaque(const Image<Rgba8>& image) {
-    return std::all_of(image.pixels.begin(), image.pixels.end(), [](Rgba8 p) { return p.a == 255; });
+/// `deep`: a PNG as 16-bit codes, so that nothing of either picture is lost.
+Picture decode(const std::string& bytes, const std::filesystem::path& path, bool deep) {
+    if (!is_png(bytes)) return decode_pfm(bytes, path.string());
+    if (!deep) return decode_png(bytes, path.string());
+    ImageFileLimits limits;
+    limits.max_bytes *= 2;
+    return decode_png16(bytes, path.string(), limits);
+}
+
+template <class Pixel>
+bool is_opaque(const Image<Pixel>& image) {
+    return std::all_of(image.pixels.begin(), image.pixels.end(), [](Pixel p) { return p.a == Pixel{}.a; });
 }
 
 /// Both pictures as channels that can be compared one by one.
@@ -40,23 +51,32 @@ std::string shape(const Planes& planes) {
                        planes.size() == 1 ? "" : "s");
 }
 
+/// Two pictures of integer codes.
+template <class Pixel>
+Comparable code_planes(const Image<Pixel>& a, const Image<Pixel>& b, const char* unit) {
+    const bool alpha = !is_opaque(a) || !is_opaque(b);
+    return {split_channels(a.view(), alpha), split_channels(b.view(), alpha), double{Pixel{}.a}, unit};
+}
+
+Comparable planes_of(const Picture& a, const Picture& b) {
+    if (const auto* png = std::get_if<Image<Rgba8>>(&a))
+        return code_planes(*png, std::get<Image<Rgba8>>(b), "codes 0..255");
+    if (const auto* png = std::get_if<Image<Rgba16>>(&a))
+        return code_planes(*png, std::get<Image<Rgba16>>(b), "codes 0..65535");
+    Comparable both{split_channels(std::get<FloatImage>(a)), split_channels(std::get<FloatImage>(b)), 1.0,
+                    "linear"};
+    both.peak = value_range(both.a);
+    return both;
+}
+
 Comparable read_both(const DiffOptions& options) {
-    const Picture a = read_picture(options.a), b = read_picture(options.b);
-    if (a.index() != b.index()) {
+    const std::string a = read_bytes(options.a), b = read_bytes(options.b);
+    if (is_png(a) != is_png(b)) {
         throw InputError(options.b.string(), fmt::format("is a {} file, but {} is not: nothing to compare",
-                                                         b.index() == 0 ? "PNG" : "PFM", options.a.string()));
+                                                         is_png(b) ? "PNG" : "PFM", options.a.string()));
     }
-    Comparable both;
-    if (const auto* png = std::get_if<Image<Rgba8>>(&a)) {
-        const auto& other = std::get<Image<Rgba8>>(b);
-        const bool alpha = !is_opaque(*png) || !is_opaque(other);
-        both = {split_channels(png->view(), alpha), split_channels(other.view(), alpha), 255.0,
-                "codes 0..255"};
-    } else {
-        both = {split_channels(std::get<FloatImage>(a)), split_channels(std::get<FloatImage>(b)), 1.0,
-                "linear"};
-        both.peak = value_range(both.a);
-    }
+    const bool deep = has_16_bit_samples(a) || has_16_bit_samples(b);
+    Comparable both = planes_of(decode(a, options.a, deep), decode(b, options.b, deep));
     const Image<float>&first = both.a[0], &second = both.b[0];
     if (both.a.size() != both.b.size() || first.width != second.width || first.height != second.height) {
         throw InputError(options.b.string(), fmt::format("has {}, but {} has {}", shape(both.b),
@@ -69,20 +89,20 @@ void check_amount(const char* flag, double value) {
     if (!(value >= 0)) throw UsageError(fmt::format("{} must be 0 or more, got {}", flag, value));
 }
 
-void print(const Comparable& both, const ImageDifference& d, double threshold) {
+std::string difference_text(const Comparable& both, const ImageDifference& d, double threshold) {
     const double pixels = static_cast<double>(both.a[0].pixels.size());
-    fmt::print("size    {}, {}\n", shape(both.a), both.unit);
-    fmt::print("max     {:.6g}", d.max_error);
-    if (d.max_error > 0) fmt::print(" at pixel {},{}", d.max_x, d.max_y);
-    fmt::print("\nmean    {:.6g}\n", d.mean_error);
-    fmt::print("psnr    {:.4f} dB\n", d.psnr_db);
-    fmt::print("ssim    {:.6f}\n", d.ssim);
-    fmt::print("differ  {} pixels above {:g} ({:.4f} %)", d.pixels_over, threshold,
-               100.0 * static_cast<double>(d.pixels_over) / pixels);
-    if (d.first_x >= 0) fmt::print(", first at {},{}", d.first_x, d.first_y);
-    if (d.not_finite > 0)
-        fmt::print("\ninf     {} values are not finite: mean, psnr and ssim leave them out", d.not_finite);
-    fmt::print("\n");
+    std::string out = fmt::format("size    {}, {}\nmax     {:.6g}", shape(both.a), both.unit, d.max_error);
+    if (d.max_error > 0) out += fmt::format(" at pixel {},{}", d.max_x, d.max_y);
+    out +=
+        fmt::format("\nmean    {:.6g}\npsnr    {:.4f} dB\nssim    {:.6f}\n", d.mean_error, d.psnr_db, d.ssim);
+    out += fmt::format("differ  {} pixels above {:g} ({:.4f} %)", d.pixels_over, threshold,
+                       100.0 * static_cast<double>(d.pixels_over) / pixels);
+    if (d.first_x >= 0) out += fmt::format(", first at {},{}", d.first_x, d.first_y);
+    if (d.not_finite > 0) {
+        out += fmt::format("\ninf     {} values are not finite: mean, psnr and ssim leave them out",
+                           d.not_finite);
+    }
+    return out + '\n';
 }
 
 }  // namespace
@@ -90,7 +110,12 @@ void print(const Comparable& both, const ImageDifference& d, double threshold) {
 int diff_command(const DiffOptions& options) {
     check_amount("--threshold", options.threshold);
     if (options.fail) check_amount("--fail", *options.fail);
-    if (!options.picture.empty()) check_writable(options.picture, options.existing);
+    if (!options.picture.empty()) {
+        ReadFiles read;
+        read.add(options.a);
+        read.add(options.b);
+        check_targets({options.picture}, {}, options.existing, read);
+    }
 
     const Comparable both = read_both(options);
     const ImageDifference difference =
@@ -100,7 +125,7 @@ int diff_command(const DiffOptions& options) {
         const Image<Rgb8> picture = difference_picture(both.a, both.b, scale > 0 ? scale : 1.0);
         write_file_atomically(options.picture, encode_png(picture.view()), options.existing);
     }
-    print(both, difference, options.threshold);
+    print(difference_text(both, difference, options.threshold));
     const bool beyond = options.fail && difference.max_error > *options.fail;
     return static_cast<int>(beyond ? ExitCode::images_differ : ExitCode::ok);
 }
@@ -108,8 +133,8 @@ int diff_command(const DiffOptions& options) {
 int run_diff(const Arguments& arguments) {
     Flags flags("diff [options] A B",
                 "Compares two PNG or two PFM files of the same size: prints the largest and mean difference, "
-                "PSNR, SSIM and how many pixels differ. Differences are in codes 0 to 255 (PNG) or in the "
-                "values of the file (PFM).");
+                "PSNR, SSIM and how many pixels differ. Differences are in codes 0 to 255 (PNG), 0 to 65535 "
+                "(when either PNG has 16 bits) or in the values of the file (PFM).");
     std::string a, b, picture;
     double fail = -1;
     bool overwrite = false;

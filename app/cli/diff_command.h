@@ -20,9 +20,10 @@ struct DiffOptions {
 };
 
 /// Prints size, max, mean, PSNR, SSIM and the count beyond the threshold to stdout; differences are in codes
-/// 0..255 (PNG; alpha counts when either picture uses it) or in the values of the file (PFM; PSNR and SSIM
-/// refer to the range of A). Returns 0, or 10 when beyond `fail`. Throws InputError when the files are not
-/// comparable, UsageError for a negative or NaN fail or threshold, OutputError.
+/// 0..255 (PNG; 0..65535 when either has 16 bits; alpha counts when either picture uses it) or in the values
+/// of the file (PFM; PSNR and SSIM refer to the range of A). Returns 0, or 10 when beyond `fail`. Throws
+/// InputError when the files are not comparable, UsageError for a negative or NaN fail or threshold,
+/// OutputError.
 int diff_command(const DiffOptions& options);
 
 /// The command line of it.

@@ -6,11 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <set>
 #include <utility>
 
 #include "app/cli/diffraction_grid.h"
+#include "app/cli/messages.h"
 #include "app/cli/progress.h"
+#include "app/cli/targets.h"
 #include "app/report/run_stats.h"
 #include "app/scene/aperture_file.h"
 #include "core/error.h"
@@ -38,6 +39,7 @@ struct Job {
     NearFieldParams near;
     FarFieldReport far_plan;
     NearFieldReport near_plan;
+    double fresnel_number = 0;  ///< near field: the opening's
     int wavelengths = 1;
     double total_ms = 0;  ///< of all wavelengths, one thread; 0: not known
 };
@@ -155,6 +157,7 @@ Job plan_job(const DiffractionOptions& options) {
         job.near.method = options.near_method;
         job.near.cull = options.far.cull;
         job.near_plan = plan_near_field(job.aperture, job.plane, job.near);
+        job.fresnel_number = opening_fresnel_number(job.aperture, job.near);
     } else {
         job.far_grid = far_grid(options, job.aperture);
         job.far_plan = plan_far_field(job.aperture, job.far_grid, options.far);
@@ -179,8 +182,8 @@ std::string pattern_text(const DiffractionOptions& options, const Job& job) {
         out = fmt::format(
             "pattern   near field at {:.6g} mm, Fresnel number {:.4g} at {:.4g} nm; {} x {} pixels "
             "of {:.4g} um\n",
-            *options.near_m * 1e3, fresnel_number(job.aperture, job.near), nm, options.size_px,
-            options.size_px, job.plane.step * job.aperture.pitch_m * 1e6);
+            *options.near_m * 1e3, job.fresnel_number, nm, options.size_px, options.size_px,
+            job.plane.step * job.aperture.pitch_m * 1e6);
     } else {
         const double radians = job.far_grid.step_u * nm * 1e-9 / job.aperture.pitch_m;
         out = fmt::format(
@@ -282,15 +285,14 @@ void check_files(const DiffractionOptions& options) {
         for (const char* part : {"re", "im"})
             files.push_back(part_path(options.outputs.front(), part));
     }
-    if (!options.stats_json.empty()) files.push_back(options.stats_json);
+    ReadFiles read;
+    if (!options.mask_file.empty()) read.add(options.mask_file);
+    check_targets(files, options.stats_json, options.existing, read);
+}
 
-    std::set<std::filesystem::path> seen;
-    for (const std::filesystem::path& file : files) {
-        if (!seen.insert(std::filesystem::absolute(file).lexically_normal()).second)
-            throw UsageError(fmt::format("'{}' would be written twice", file.string()));
-    }
-    for (const std::filesystem::path& file : files)
-        check_writable(file, options.existing);
+/// Words about the run: on standard output, unless statistics go there.
+void tell(const DiffractionOptions& options, const std::string& text) {
+    is_standard_output(options.stats_json) ? say(text) : print(text);
 }
 
 void write_pattern(const DiffractionOptions& options, const Pattern& pattern) {
@@ -305,14 +307,14 @@ void write_pattern(const DiffractionOptions& options, const Pattern& pattern) {
             bytes = grey ? encode_pfm(pattern.power.view()) : encode_pfm(pattern.colour.view());
         }
         write_file_atomically(file, bytes, options.existing);
-        fmt::print("{}\n", file);
+        tell(options, file + "\n");
     }
     if (!options.amplitude) return;
     const Field& field = pattern.amplitude;
     for (const auto& [part, image] : {std::pair{"re", &field.re}, std::pair{"im", &field.im}}) {
         const std::filesystem::path file = part_path(options.outputs.front(), part);
         write_file_atomically(file, encode_pfm(image->view()), options.existing);
-        fmt::print("{}\n", file.string());
+        tell(options, file.string() + "\n");
     }
 }
 
@@ -333,7 +335,7 @@ std::string stats_text(const DiffractionOptions& options, const Job& job, double
     json.member("quads", near ? job.near_plan.quads : job.far_plan.quads);
     json.member("edges", near ? job.near_plan.edges : job.far_plan.edges);
     if (near) {
-        json.member("fresnel_number", fresnel_number(job.aperture, job.near));
+        json.member("fresnel_number", job.fresnel_number);
     } else {
         json.member("active_blocks", job.far_plan.active_blocks).member("blocks", job.far_plan.blocks);
     }
@@ -350,19 +352,19 @@ int diffraction_command(const DiffractionOptions& options) {
         (options.far.method != FarFieldMethod::automatic || options.far.cull > 0))
         throw UsageError(
             "--method and --cull are of one wavelength or of --near: give --wavelength-nm, not --spectrum");
+    if (options.plan_only && is_standard_output(options.stats_json))
+        throw UsageError("--stats-json -: --plan prints to standard output and has no statistics");
     if (!options.plan_only) check_files(options);
     Job job = plan_job(options);
-    fmt::print("{}{}", aperture_text(options, job), pattern_text(options, job));
-    std::fflush(stdout);
-    if (options.near_m && fresnel_number(job.aperture, job.near) < far_fresnel_number)
+    tell(options, aperture_text(options, job) + pattern_text(options, job));
+    if (options.near_m && job.fresnel_number < far_fresnel_number)
         say_note("so far away the pattern is all but the far field's; see --far");
     if (options.plan_only) return 0;
     const Stopwatch watch;
     const Pattern pattern = pattern_with_progress(options, job);
     const double seconds = watch.seconds();
     write_pattern(options, pattern);
-    if (!options.stats_json.empty())
-        write_file_atomically(options.stats_json, stats_text(options, job, seconds), options.existing);
+    write_stats(options.stats_json, stats_text(options, job, seconds), options.existing);
     return 0;
 }
 

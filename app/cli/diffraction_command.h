@@ -59,7 +59,7 @@ struct DiffractionOptions {
     std::vector<std::string> outputs;
     Existing existing = Existing::refuse;
     bool plan_only = false;
-    std::filesystem::path stats_json;  ///< empty: none
+    std::filesystem::path stats_json;  ///< empty: none; "-": standard output, and words go to standard error
     std::int64_t memory_mib = 4096;
     Exec exec;
 };

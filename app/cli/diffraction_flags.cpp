@@ -187,7 +187,11 @@ void set_dirt(const Texts& t, LensDirt& dirt) {
 void add_pattern_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
     flags.group("Pattern");
     flags.on_off("--far", t.far, "Far field (Fraunhofer), which is the default.");
-    flags.text("--near", "MM", t.near, "Near field (Fresnel) at this distance, millimetres.", "off");
+    flags.text("--near", "MM", t.near,
+               "Near field (Fresnel) at this distance, millimetres. The Fresnel number that is told is a^2 / "
+               "(wavelength x "
+               "distance), a half the longer side of what is open: the radius of a round hole.",
+               "off");
     flags.text("--wavelength-nm", "NM", t.wavelength, "Light of one wavelength, nanometres.", "550");
     flags.text("--spectrum", "LIGHT", t.spectrum,
                "Light of many: d65, equal, blackbody:KELVIN, sodium or rgb_led; the pattern has colours.",
@@ -228,7 +232,9 @@ void add_output_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
     flags.number("--decades", "DECADES", t.decades, 0.1, 30, "How many powers of ten --log shows.", "7");
     flags.on_off("--overwrite", t.overwrite, "Replace files that exist; otherwise they are an error.");
     flags.on_off("--plan", options.plan_only, "Only print what would be computed, and how.");
-    flags.text("--stats-json", "FILE", t.stats, "Write plan, counts and times (s) as JSON.", "none");
+    flags.text("--stats-json", "FILE", t.stats,
+               "Write plan, counts and times (s) as JSON; - is standard output, where the plan then is not.",
+               "none");
     flags.whole("--limit-memory", "MIB", t.memory, 1, 1 << 24, "Refuse what needs more memory, MiB.", "4096");
     add_exec_flags(flags, t.threads, t.isa);
 }

@@ -1,8 +1,7 @@
 #include "app/cli/dump_command.h"
 
-#include <cstdio>
-
 #include "app/cli/flags.h"
+#include "app/cli/messages.h"
 #include "app/scene/format_doc.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
@@ -12,7 +11,7 @@ namespace obscura {
 int dump_command(const DumpOptions& options) {
     const std::string text =
         options.format ? scene_format_doc() : dump_scene(read_scene(options.scene, options.overrides));
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    print(text);
     return 0;
 }
 

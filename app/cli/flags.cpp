@@ -4,10 +4,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <deque>
 
 #include "app/cli/flag_values.h"
+#include "app/cli/messages.h"
 #include "app/scene/schema.h"
 #include "core/error.h"
 
@@ -205,8 +205,7 @@ bool Flags::parse(const std::vector<std::string>& arguments) {
         reject(e.what());
     }
     if (line.help_wanted) {
-        const std::string text = help();
-        std::fwrite(text.data(), 1, text.size(), stdout);
+        print(help());
         return false;
     }
     reject_leftovers(line.app.remaining());

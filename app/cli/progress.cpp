@@ -1,12 +1,11 @@
 #include "app/cli/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <string_view>
+
+#include "app/cli/messages.h"
 
 namespace obscura {
 namespace {
@@ -16,24 +15,9 @@ constexpr double worth_guessing_s = 1.0;  // an estimate out of less would jump 
 
 }  // namespace
 
-bool is_terminal(std::FILE* stream) {
-    return ::isatty(::fileno(stream)) == 1;
-}
-
-bool wants_colour(std::FILE* stream) {
-    const char* no_colour = std::getenv("NO_COLOR");
-    const char* term = std::getenv("TERM");
-    return is_terminal(stream) && (no_colour == nullptr || *no_colour == '\0') && term != nullptr &&
-           std::string_view(term) != "dumb";
-}
-
-void say_note(const std::string& text) {
-    fmt::print(stderr, "obscura: note: {}\n", text);
-}
-
 Progress::Style Progress::style_for(std::FILE* stream, bool quiet) {
     if (quiet) return Style::silent;
-    return is_terminal(stream) ? Style::live : Style::lines;
+    return has_escapes(stream) ? Style::live : Style::lines;
 }
 
 Progress::Progress(std::FILE* stream_, Style style_) : stream(stream_), style(style_) {}

@@ -1,5 +1,5 @@
 #pragma once
-// What is told on standard error. Progress: one line that renews itself on a terminal, one line per 10 %
+// How far the work is, on standard error: one line that renews itself on a terminal, one line per 10 %
 // elsewhere.
 
 #include <atomic>
@@ -11,17 +11,10 @@
 
 namespace obscura {
 
-/// Whether `stream` is a terminal, and one that may be coloured (NO_COLOR unset or empty, TERM not "dumb").
-bool is_terminal(std::FILE* stream);
-bool wants_colour(std::FILE* stream);
-
-/// "obscura: note: TEXT" on standard error.
-void say_note(const std::string& text);
-
 class Progress {
   public:
     enum class Style { silent, lines, live };
-    /// The style that fits `stream`.
+    /// The style that fits `stream`: live only on terminals that can take a line away again.
     static Style style_for(std::FILE* stream, bool quiet);
 
     Progress(std::FILE* stream, Style style);

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "app/cli/flags.h"
+#include "app/cli/messages.h"
 #include "app/cli/render_plan.h"
 #include "app/cli/scene_flags.h"
 #include "app/cli/signals.h"
+#include "app/cli/targets.h"
 #include "app/frame/load_scene.h"
 #include "app/report/pixel_trace.h"
 #include "app/report/render_stats.h"
@@ -28,7 +29,7 @@ void explain_pixel(const RenderPlan& plan, Scene& scene, const FileAccess& acces
         cache.access = access;
         return trace_pixel(scene, plan.pixel->x, plan.pixel->y, exec, cache);
     });
-    std::fwrite(trace.text.data(), 1, trace.text.size(), stdout);
+    print(trace.text);
 }
 
 RenderReport begin_report(const RenderPlan& plan, const Scene& scene, const SceneRun& run) {
@@ -96,7 +97,7 @@ void render_frames(const RenderPlan& plan, Scene& scene, const SceneRun& run, Re
         } else {
             progress.clear();
         }
-        if (worth_telling(told, plan, run)) fmt::print(stderr, "{}", frame_text(told, run.verbosity));
+        if (worth_telling(told, plan, run)) say(frame_text(told, run.verbosity));
     });
 }
 
@@ -111,25 +112,30 @@ FileKind kind_value(const std::string& flag, const std::string& text) {
 int render_command(const RenderOptions& options) {
     const Stopwatch watch;
     const SceneRun& run = options.run;
+    if (!options.pixel.empty() && is_standard_output(run.stats_json))
+        throw UsageError("--stats-json -: --pixel prints to standard output and has no statistics");
     const RenderPlan plan = in_stage("reading the scene", [&] { return plan_render(options); });
-    if (!plan.pixel) check_outputs(plan, run);
-    const FileAccess access{plan.document.folder, run.allowed_paths};
+    // Whatever would refuse a file after hours refuses it now.
+    const FileAccess access = recording_access(run, plan.document);
+    const auto results = result_files(plan);
+    if (!plan.pixel) check_targets(results, run.stats_json, run.existing(), *access.read);
     Scene scene = in_stage("loading the scene", [&] { return load_scene(plan.document, access); });
 
     if (plan.pixel) {
         explain_pixel(plan, scene, access, run.exec);
         return 0;
     }
+    check_not_read(results, run.stats_json, *access.read);
 
     RenderReport report = begin_report(plan, scene, run);
     report.run.load_s = watch.seconds();
-    if (run.verbosity > 0 && !run.quiet) fmt::print(stderr, "{}", plan_text(report, plan.frames.size()));
+    if (run.verbosity > 0 && !run.quiet) say(plan_text(report, plan.frames.size()));
 
     // From here on there are results to lose: a signal lets the current file finish.
     set_signal_policy(OnSignal::ask_to_stop);
     render_frames(plan, scene, run, report);
     report.run.total_s = watch.seconds();
-    if (!run.stats_json.empty()) write_file_atomically(run.stats_json, stats_json(report), run.existing());
+    write_stats(run.stats_json, stats_json(report), run.existing());
     return 0;
 }
 

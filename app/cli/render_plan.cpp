@@ -33,12 +33,13 @@ RenderPlan plan_render(const RenderOptions& options) {
     return plan;
 }
 
-void check_outputs(const RenderPlan& plan, const SceneRun& run) {
+std::vector<std::filesystem::path> result_files(const RenderPlan& plan) {
+    std::vector<std::filesystem::path> files;
     for (const int frame : plan.frames) {
         for (const PlannedOutput& output : plan.outputs)
-            check_writable(output_path(output, frame), run.existing());
+            files.push_back(output_path(output, frame));
     }
-    if (!run.stats_json.empty()) check_writable(run.stats_json, run.existing());
+    return files;
 }
 
 }  // namespace obscura

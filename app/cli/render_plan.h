@@ -22,7 +22,7 @@ struct RenderPlan {
 /// Reads the scene and holds the flags against it. Throws UsageError, InputError, LimitError.
 RenderPlan plan_render(const RenderOptions& options);
 
-/// Whatever would refuse a file after hours refuses it now. Throws OutputError.
-void check_outputs(const RenderPlan& plan, const SceneRun& run);
+/// The pictures of all frames.
+std::vector<std::filesystem::path> result_files(const RenderPlan& plan);
 
 }  // namespace obscura

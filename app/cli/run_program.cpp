@@ -9,9 +9,8 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <system_error>
 
-#include "app/cli/progress.h"
+#include "app/cli/messages.h"
 #include "app/cli/signals.h"
 #include "core/error.h"
 #include "core/file_output.h"
@@ -19,11 +18,11 @@
 namespace obscura {
 namespace {
 
-/// Prints the message and returns the code.
+/// Says the message, without asking for memory, and returns the code.
 int report(ExitCode code, const std::string& message) {
     const bool colour = wants_colour(stderr);
-    std::fprintf(stderr, "obscura: %serror:%s %s\n", colour ? "\x1b[1;31m" : "", colour ? "\x1b[0m" : "",
-                 message.c_str());
+    (void)std::fprintf(stderr, "obscura: %serror:%s %s\n", colour ? "\x1b[1;31m" : "",
+                       colour ? "\x1b[0m" : "", message.c_str());
     return static_cast<int>(code);
 }
 
@@ -82,10 +81,6 @@ int run_and_report(RunCommand run, const Arguments& arguments) {
         return report(ExitCode::limit, "out of memory");
     } catch (const OutputError& e) {
         return report(ExitCode::output, e.what());
-    } catch (const std::system_error& e) {
-        // fmt throws this when standard output cannot be written; flush_output() tells why.
-        if (std::ferror(stdout) == 0) return report(ExitCode::internal, e.what());
-        return 0;
     } catch (const std::exception& e) {
         return report(ExitCode::internal, e.what());
     }

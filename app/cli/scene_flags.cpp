@@ -47,7 +47,7 @@ void RunFlags::add_execution_to(Flags& flags, const std::string& statistics) {
     flags.group("Messages");
     flags.on_off("-q,--quiet", run.quiet, "Say nothing but errors.");
     flags.counted("-v,--verbose", run.verbosity, "Say what each stage took.");
-    flags.text("--stats-json", "FILE", stats, statistics, "none");
+    flags.text("--stats-json", "FILE", stats, statistics + " - is standard output.", "none");
 }
 
 SceneRun RunFlags::value() const {

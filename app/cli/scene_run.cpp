@@ -2,10 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+
 #include "app/cli/flag_values.h"
 #include "app/scene/keyframes.h"
 
 namespace obscura {
+
+FileAccess recording_access(const SceneRun& run, const SceneDocument& document) {
+    FileAccess access{document.folder, run.allowed_paths, std::make_shared<ReadFiles>()};
+    access.read->add(run.scene);
+    return access;
+}
 
 std::vector<int> frames_of(const SceneRun& run, const SceneDocument& document) {
     const FrameRange range = scene_frames(document);

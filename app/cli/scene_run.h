@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/cli/progress.h"
+#include "app/scene/file_access.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
 #include "core/file_output.h"
@@ -21,7 +22,7 @@ struct SceneRun {
     std::vector<std::string> overrides;                ///< "key=value"
     std::vector<std::filesystem::path> allowed_paths;  ///< besides the scene's folder
     std::string frames;                                ///< "1-48x2", "1,5,9-12"; empty: all of the scene
-    std::filesystem::path stats_json;                  ///< empty: none
+    std::filesystem::path stats_json;                  ///< empty: none; "-": standard output
     bool overwrite = false;
     bool quiet = false;
     int verbosity = 0;
@@ -29,6 +30,9 @@ struct SceneRun {
 
     Existing existing() const { return overwrite ? Existing::replace : Existing::refuse; }
 };
+
+/// The files that the scene may name; `read` has the scene file, and gets whatever is found.
+FileAccess recording_access(const SceneRun& run, const SceneDocument& document);
 
 /// The frames that the run asks for, ascending. Throws UsageError.
 std::vector<int> frames_of(const SceneRun& run, const SceneDocument& document);

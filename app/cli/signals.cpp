@@ -24,6 +24,25 @@ extern "C" void on_signal(int number) {
     _exit(static_cast<int>(ExitCode::signal_base) + number);
 }
 
+/// A fault of ours: its default, which writes the core file, follows.
+extern "C" void on_fault(int number) {
+    remove_pending_outputs();
+    ::raise(number);
+}
+
+// Their default is to end the process. SIGKILL is missing: nobody can follow it.
+constexpr int requests[] = {SIGHUP,  SIGINT,  SIGQUIT,   SIGTERM, SIGXCPU, SIGUSR1,  SIGUSR2,
+                            SIGALRM, SIGPROF, SIGVTALRM, SIGPOLL, SIGPWR,  SIGSTKFLT};
+constexpr int faults[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
+
+/// A parent that ignores a signal (nohup, a shell's background job) means it, and what handles one already
+/// (a profiler, a sanitizer) has better things to do with it.
+void handle_if_default(int number, const struct sigaction& action) {
+    struct sigaction before {};
+    ::sigaction(number, nullptr, &before);
+    if (before.sa_handler == SIG_DFL) ::sigaction(number, &action, nullptr);
+}
+
 void fill_closed_stream(int fd, int flags) {
     if (::fcntl(fd, F_GETFD) != -1) return;
     // The lowest free number is what open() returns: 0, 1 and 2 are asked for in this order.
@@ -37,17 +56,21 @@ void install_signal_handlers() {
     fill_closed_stream(1, O_WRONLY);
     fill_closed_stream(2, O_WRONLY);
     struct sigaction action {};
+    ::sigemptyset(&action.sa_mask);
+    // Ignored, they are the errors EPIPE and EFBIG of the write that met them.
     action.sa_handler = SIG_IGN;
-    ::sigaction(SIGPIPE, &action, nullptr);
+    for (const int number : {SIGPIPE, SIGXFSZ})
+        ::sigaction(number, &action, nullptr);
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;
-    ::sigemptyset(&action.sa_mask);
-    for (const int number : {SIGINT, SIGTERM}) {
-        // A parent that ignores the signal (nohup, a shell's background job) means it.
-        struct sigaction before {};
-        ::sigaction(number, nullptr, &before);
-        if (before.sa_handler != SIG_IGN) ::sigaction(number, &action, nullptr);
-    }
+    for (const int number : requests)
+        handle_if_default(number, action);
+    for (int number = SIGRTMIN; number <= SIGRTMAX; ++number)
+        handle_if_default(number, action);
+    action.sa_handler = on_fault;
+    action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_NODEFER;
+    for (const int number : faults)
+        handle_if_default(number, action);
 }
 
 void set_signal_policy(OnSignal policy) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
-// SIGINT and SIGTERM: the first asks the work to stop at its next tile, the second ends the process at once.
-// Either way no half-written file stays behind.
+// Signals that end a process (SIGHUP, SIGINT, SIGTERM, SIGXCPU, ...): the first asks the work to stop at its
+// next tile, the second ends the process at once. Either way, and after faults (SIGSEGV, SIGABRT, ...), no
+// half-written file stays behind.
 
 #include <atomic>
 #include <stdexcept>
@@ -12,8 +13,9 @@ enum class OnSignal {
     ask_to_stop,   ///< set the flag; a second signal exits at once
 };
 
-/// Installs the handlers, ignores SIGPIPE (a closed pipe is then an ordinary write error) and opens
-/// /dev/null in the place of a closed standard stream, so that no output file becomes one.
+/// Installs the handlers where a signal still has its default, ignores SIGPIPE and SIGXFSZ (a closed pipe and
+/// a file too large are then ordinary write errors) and opens /dev/null in the place of a closed standard
+/// stream, so that no output file becomes one.
 void install_signal_handlers();
 /// What the next signal does; at first `exit_at_once`.
 void set_signal_policy(OnSignal policy) noexcept;

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <tuple>
 
+#include "app/cli/messages.h"
 #include "app/cli/signals.h"
+#include "app/cli/targets.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/pair/pair.h"
@@ -61,21 +64,14 @@ StereoPlan plan_stereo(const StereoOptions& options) {
     return plan;
 }
 
-/// Whatever would refuse a file after hours refuses it now.
-void check_outputs(const StereoPlan& plan, const StereoOptions& options) {
+/// The files of all frames.
+std::vector<std::filesystem::path> result_files(const StereoPlan& plan) {
+    std::vector<std::filesystem::path> files;
     for (const int frame : plan.frames) {
         for (const StereoFile& file : plan.files)
-            check_writable(stereo_path(plan.files, file.role, frame), options.run.existing());
+            files.push_back(stereo_path(plan.files, file.role, frame));
     }
-    if (options.run.stats_json.empty()) return;
-    for (const int frame : plan.frames) {
-        for (const StereoFile& file : plan.files) {
-            if (stereo_path(plan.files, file.role, frame) == options.run.stats_json)
-                throw UsageError(fmt::format("--stats-json: '{}' is one of the pictures",
-                                             options.run.stats_json.string()));
-        }
-    }
-    check_writable(options.run.stats_json, options.run.existing());
+    return files;
 }
 
 void shrink_for_preview(Scene& scene) {
@@ -141,11 +137,19 @@ void write_files(const Run& run, const std::vector<RoledFile>& files, const std:
     report.write_s += watch.seconds();
 }
 
+/// Two pictures in the layout that was asked for.
+void write_both(const Run& run, const char* role, const Image<Vec3f>& left, const Image<Vec3f>& right,
+                StereoFrameReport& report) {
+    const StereoOptions& options = run.options;
+    const auto& [first, second] = options.swap_eyes ? std::tie(right, left) : std::tie(left, right);
+    write_files(run, laid_out_files(role, first, second, options.layout), "", report);
+}
+
 void write_layout(const Run& run, const char* role, const StereoPair& pair, StereoFrameReport& report) {
     const RenderSettings& render = run.scene.render;
     const Image<Vec3f> left = display_light(pair.eyes.left.radiance.view(), render, run.options.run.exec),
                        right = display_light(pair.eyes.right.radiance.view(), render, run.options.run.exec);
-    write_files(run, laid_out_files(role, left, right, run.options.layout), "", report);
+    write_both(run, role, left, right, report);
 }
 
 /// What the rig alone gives.
@@ -167,7 +171,7 @@ void write_comparisons(Run& run, const StereoPair& pair, const StereoSettings& s
     if (compare.warp) {
         const WarpedPair both = warped_pair(pair, run.scene.render, run.options.run.exec);
         report.warp_holes = both.holes;
-        write_files(run, laid_out_files("warp", both.left, both.right, run.options.layout), "", report);
+        write_both(run, "warp", both.left, both.right, report);
     }
     StereoSettings other = settings;
     other.middle_picture = false;
@@ -207,8 +211,8 @@ void say_frame(const StereoFrameReport& report) {
     std::string files;
     for (const StereoWritten& file : report.files)
         files += (files.empty() ? "" : ", ") + file.file;
-    fmt::print(stderr, "frame {} in {:.2f} s: {}\n", report.frame,
-               report.times.total_s + report.compare_s + report.write_s, files);
+    say(fmt::format("frame {} in {:.2f} s: {}\n", report.frame,
+                    report.times.total_s + report.compare_s + report.write_s, files));
 }
 
 void render_one(Run& run, int number, StereoReport& report) {
@@ -240,7 +244,7 @@ void render_one(Run& run, int number, StereoReport& report) {
     for (const std::string& note : frame.notes)
         say_note(several ? fmt::format("frame {}: {}", number, note) : note);
     if (!several || run.options.run.verbosity > 0) say_frame(frame);
-    if (run.options.run.verbosity > 0) fmt::print(stderr, "{}", stereo_details(pair, settings));
+    if (run.options.run.verbosity > 0) say(stereo_details(pair, settings));
 }
 
 StereoReport begin_report(const StereoOptions& options, const Scene& scene) {
@@ -248,6 +252,7 @@ StereoReport begin_report(const StereoOptions& options, const Scene& scene) {
     report.run = {options.run.scene.string(), options.run.exec,     scene.render.width,
                   scene.render.height,        scene.render.samples, scene.limits.memory_mib};
     report.layout = layout_name(options.layout);
+    report.swapped_eyes = options.swap_eyes;
     report.preview = options.preview;
     return report;
 }
@@ -257,8 +262,10 @@ StereoReport begin_report(const StereoOptions& options, const Scene& scene) {
 int stereo_command(const StereoOptions& options) {
     const Stopwatch watch;
     const StereoPlan plan = in_stage("reading the scene", [&] { return plan_stereo(options); });
-    check_outputs(plan, options);
-    const FileAccess access{plan.document.folder, options.run.allowed_paths};
+    // Whatever would refuse a file after hours refuses it now.
+    const FileAccess access = recording_access(options.run, plan.document);
+    const auto results = result_files(plan);
+    check_targets(results, options.run.stats_json, options.run.existing(), *access.read);
     Scene scene = in_stage("loading the scene", [&] { return load_scene(plan.document, access); });
     if (options.preview) shrink_for_preview(scene);
 
@@ -268,6 +275,7 @@ int stereo_command(const StereoOptions& options) {
     MemoryEstimate memory = estimate_memory(scene);
     memory.frame += stereo_bytes(scene, settings_of(run, plan.frames.front()));
     check_memory(memory, scene.limits, plan.document.sources[0]);
+    check_not_read(results, options.run.stats_json, *access.read);
 
     StereoReport report = begin_report(options, scene);
     report.run.load_s = watch.seconds();
@@ -277,8 +285,7 @@ int stereo_command(const StereoOptions& options) {
     for_each_frame(plan.frames, run.progress, [&](int frame) { render_one(run, frame, report); });
     run.progress.finish();
     report.run.total_s = watch.seconds();
-    if (!options.run.stats_json.empty())
-        write_file_atomically(options.run.stats_json, stereo_stats_json(report), options.run.existing());
+    write_stats(options.run.stats_json, stereo_stats_json(report), options.run.existing());
     return 0;
 }
 

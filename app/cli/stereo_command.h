@@ -14,6 +14,7 @@ struct StereoOptions {
     SceneRun run;
     std::string output;  ///< empty: SCENE.stereo.png
     StereoLayout layout = StereoLayout::side_by_side;
+    bool swap_eyes = false;  ///< in a layout of both: the right eye's picture where the left's would be
     StereoCompare compare;
     std::string maps;      ///< prefix of the maps' files; empty: none
     std::string report;    ///< a page about the pair (.html); empty: none

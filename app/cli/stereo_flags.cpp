@@ -24,6 +24,15 @@ StereoLayout layout_value(const std::string& flag, const std::string& text) {
     throw UsageError(fmt::format("{}: there is no layout '{}'{}", flag, text, hint(text, names)));
 }
 
+/// Layouts that name an eye show that one.
+void check_swap(const StereoOptions& options) {
+    const StereoLayout l = options.layout;
+    if (!options.swap_eyes ||
+        (l != StereoLayout::left && l != StereoLayout::right && l != StereoLayout::separate))
+        return;
+    throw UsageError(fmt::format("--swap-eyes: layout '{}' names its eyes", layout_name(l)));
+}
+
 /// --solver and --map-scale say what keys of the scene say.
 void add_overrides(const std::string& solver, std::int64_t map_scale, std::vector<std::string>& overrides) {
     const std::vector<std::string> solvers{"multigrid", "fmg", "vcycle", "cascade"};
@@ -62,6 +71,9 @@ int run_stereo(const Arguments& arguments) {
         "anaglyph-half, anaglyph-dubois, interlaced, left, right, or separate: two files NAME.left.png "
         "and NAME.right.png.",
         "side-by-side");
+    flags.on_off("--swap-eyes", options.swap_eyes,
+                 "The right eye's picture where the layout has the left's, and the other way round, as for "
+                 "interlaced screens whose first row is the right eye's.");
     flags.text("--compare", "VARIANTS", compare,
                "Further pictures NAME.warp.png and so on, separated by commas: warp (the middle picture "
                "warped), remap (one curve instead of edits, stereo.remap), unedited.",
@@ -89,6 +101,7 @@ int run_stereo(const Arguments& arguments) {
     options.run = run.value();
     add_overrides(solver, map_scale, options.run.overrides);
     options.layout = layout_value("--layout", layout);
+    check_swap(options);
     if (!compare.empty()) options.compare = compare_value("--compare", compare);
     options.run.exec = run.exec();
     return stereo_command(options);

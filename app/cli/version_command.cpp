@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "app/cli/flags.h"
+#include "app/cli/messages.h"
 #include "app/report/program_version.h"
 #include "core/isa.h"
 #include "core/parallel.h"
@@ -26,11 +25,11 @@ int version_command() {
     std::string sets;
     for (const Isa isa : supported_isas())
         sets += fmt::format("{}{}", sets.empty() ? "" : " ", isa_name(isa));
-    fmt::print("{}\n", program_version());
-    fmt::print("built with        {}, C++20, {}\n", compiler(), OBSCURA_BUILD_TYPE);
-    fmt::print("instruction sets  {} (chosen: {})\n", sets, isa_name(best_isa()));
-    fmt::print("threads           {}\n", hardware_threads());
-    fmt::print("libraries         {}\n", OBSCURA_LIBRARIES);
+    print(fmt::format(
+        "{}\nbuilt with        {}, C++20, {}\ninstruction sets  {} (chosen: {})\nthreads           {}\n"
+        "libraries         {}\n",
+        program_version(), compiler(), OBSCURA_BUILD_TYPE, sets, isa_name(best_isa()), hardware_threads(),
+        OBSCURA_LIBRARIES));
     return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "app/frame/shadow_cache.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <system_error>
 
@@ -36,6 +37,27 @@ class KeyHasher {
     Hasher key_, other_{0x9e3779b97f4a7c15u};
 };
 
+/// A folder that is made when it is not there, and taken away again when nothing came to lie in it.
+class MadeFolder {
+  public:
+    explicit MadeFolder(const fs::path& folder) : path(folder) {
+        std::error_code error;
+        made = fs::create_directory(folder, error);
+        if (!error) return;
+        throw OutputError(
+            fmt::format("{}: cannot make the shadow cache: {}", folder.string(), error.message()));
+    }
+    ~MadeFolder() {
+        if (made) ::rmdir(path.c_str());  // which a folder with files in it withstands
+    }
+    MadeFolder(const MadeFolder&) = delete;
+    MadeFolder& operator=(const MadeFolder&) = delete;
+
+  private:
+    fs::path path;
+    bool made = false;
+};
+
 }  // namespace
 
 fs::path shadow_cache_folder(const FileAccess& access, const std::string& cache) {
@@ -48,6 +70,10 @@ fs::path shadow_cache_folder(const FileAccess& access, const std::string& cache)
     }
     if (!fs::is_directory(folder)) throw InputError(cache, "the shadow cache is not a folder");
     return folder;
+}
+
+fs::path shadow_cache_file(const fs::path& folder, const std::string& light) {
+    return folder / (light + ".shadowtree");
 }
 
 TreeFileKey geometry_key(const Mesh& mesh) {
@@ -110,15 +136,14 @@ std::vector<ShadowTree> load_shadow_cache(const fs::path& file, const TreeFileKe
     return {};
 }
 
-void open_shadow_cache(const fs::path& file) {
-    const fs::path folder = file.parent_path();
-    std::error_code error;
-    fs::create_directory(folder, error);
-    if (error) {
-        throw OutputError(
-            fmt::format("{}: cannot make the shadow cache: {}", folder.string(), error.message()));
-    }
+void check_shadow_cache(const fs::path& file) {
+    const MadeFolder folder(file.parent_path());
     check_writable(file, Existing::replace);
+}
+
+void save_shadow_cache(const fs::path& file, const std::vector<ShadowTree>& trees, const TreeFileKey& key) {
+    const MadeFolder folder(file.parent_path());
+    write_tree_file(file, trees, key);
 }
 
 }  // namespace obscura

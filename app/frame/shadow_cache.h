@@ -17,6 +17,9 @@ namespace obscura {
 /// InputError when it leads elsewhere or when something else than a folder is there.
 std::filesystem::path shadow_cache_folder(const FileAccess& access, const std::string& cache);
 
+/// The file of one light's trees in that folder.
+std::filesystem::path shadow_cache_file(const std::filesystem::path& folder, const std::string& light);
+
 /// A hash of everything of a mesh that shadows depend on: positions, triangles, what casts, which components
 /// are closed.
 TreeFileKey geometry_key(const Mesh& mesh);
@@ -30,8 +33,12 @@ TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
 std::vector<ShadowTree> load_shadow_cache(const std::filesystem::path& file, const TreeFileKey& key,
                                           std::string& notice);
 
-/// Makes the folder if need be and sees that `file` can be written, before anything is built for it. Throws
-/// OutputError.
-void open_shadow_cache(const std::filesystem::path& file);
+/// Sees that the folder can be made and `file` written in it, before anything is built for it, and leaves
+/// nothing. Throws OutputError.
+void check_shadow_cache(const std::filesystem::path& file);
+
+/// Makes the folder if need be and writes the file, or leaves neither. Throws OutputError.
+void save_shadow_cache(const std::filesystem::path& file, const std::vector<ShadowTree>& trees,
+                       const TreeFileKey& key);
 
 }  // namespace obscura

@@ -77,14 +77,14 @@ bool build_trees(const Work& work, const std::vector<NeededNodes>* needed, std::
         return build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel);
     }
     const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
-    const auto file = folder / (light.light.id + ".shadowtree");
+    const auto file = shadow_cache_file(folder, light.light.id);
     if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
     const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
     const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
     if (load(work, file, key, views, shadow)) return true;
-    open_shadow_cache(file);
+    check_shadow_cache(file);
     if (!build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel)) return false;
-    write_tree_file(file, shadow.trees, key);
+    save_shadow_cache(file, shadow.trees, key);
     return true;
 }
 

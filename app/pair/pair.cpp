@@ -219,4 +219,11 @@ void render_stereo_pair(const Scene& scene, const StereoSettings& settings, cons
     pair.times.total_s = total.seconds();
 }
 
+Conflicts remaining_conflicts(const Scene& scene, const StereoSettings& settings, const StereoPair& pair,
+                              const Exec& exec) {
+    const EditParams& edit = settings.edit;
+    return find_conflicts(pair.view, pair.optimised, {edit.comfort, edit.meaningful_px},
+                          object_names(scene.mesh), exec);
+}
+
 }  // namespace obscura

@@ -15,6 +15,7 @@
 #include "app/scene/scene.h"
 #include "app/scene/stereo_settings.h"
 #include "core/isa.h"
+#include "stereo/conflict.h"
 #include "stereo/edit.h"
 #include "stereo/middle_view.h"
 #include "stereo/moved_mesh.h"
@@ -85,6 +86,10 @@ struct StereoCache {
 /// LimitError for what does not fit scene.limits. The same bits for any exec, from an equal cache.
 void render_stereo_pair(const Scene& scene, const StereoSettings& settings, const StereoPairOptions& options,
                         const Exec& exec, StereoCache& cache, StereoPair& pair);
+
+/// What is still wrong with the map that the pictures show; EditedSystem has what the edits alone would do.
+Conflicts remaining_conflicts(const Scene& scene, const StereoSettings& settings, const StereoPair& pair,
+                              const Exec& exec);
 
 /// Bytes that a pair of `scene` takes at once beside what estimate_memory(scene) tells, when moving leaves
 /// `triangles` of them (0: a guess from the picture's size)

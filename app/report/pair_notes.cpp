@@ -3,38 +3,70 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 namespace obscura {
 namespace {
 
 constexpr std::size_t most_unsatisfied = 8;
 
-/// "depth inversion: 210 places, worst 3.2 px (ball in front of wall, 2 more); resolved".
+/// All conflicts of a kind together.
+struct KindTotal {
+    const Conflict* first = nullptr;
+    std::int64_t places = 0, pixels = 0, inherited = 0;
+    double worst_px = 0;
+};
+
+KindTotal total_of(const std::vector<Conflict>& conflicts, ConflictKind kind) {
+    KindTotal total;
+    for (const Conflict& c : conflicts) {
+        if (c.kind != kind) continue;
+        if (total.first == nullptr) total.first = &c;
+        ++total.places;
+        total.pixels += c.pixels;
+        total.inherited += c.inherited;
+        total.worst_px = std::max(total.worst_px, c.worst_px);
+    }
+    return total;
+}
+
+/// How many of them the system holds back (see edit.cpp).
+std::int64_t held_back(const KindTotal& total, ConflictKind kind, const EditParams& p) {
+    switch (kind) {
+        case ConflictKind::depth_inversion:
+            return p.reset_inversions ? total.pixels : 0;
+        case ConflictKind::window_violation:  // where the rig alone is cut as badly stays what it was
+            return p.window_weight > 0 ? total.pixels - (p.window_inherited ? 0 : total.inherited) : 0;
+        case ConflictKind::comfort:
+            return p.comfort_weight > 0 ? total.pixels : 0;
+        case ConflictKind::fold:
+            return p.limit_folds ? total.pixels : 0;
+    }
+    return 0;
+}
+
+std::string outcome_text(const KindTotal& total, ConflictKind kind, const StereoSettings& settings) {
+    // A remap has no edits and solves nothing: what is told is the map that its curve starts from.
+    if (settings.remap.kind != RemapKind::none) return "before the remap";
+    const std::int64_t held = held_back(total, kind, settings.edit), pixels = total.pixels;
+    if (held == 0) return "left as it is";
+    if (held == pixels) return "held back before solving";
+    return fmt::format("{} held back before solving, {} left as {}", held, pixels - held,
+                       pixels - held == 1 ? "it is" : "they are");
+}
+
+/// "depth inversion: 210 pixels, worst by 3.2 px (ball in front of wall, and 2 more); held back before
+/// solving".
 void add_conflicts(const StereoPair& pair, const StereoSettings& settings, std::vector<std::string>& notes) {
-    const EditParams& p = settings.edit;
-    const std::array<bool, conflict_kinds> resolved = {p.reset_inversions, p.window_weight > 0,
-                                                       p.comfort_weight > 0, p.limit_folds};
-    for (int kind = 0; kind < conflict_kinds; ++kind) {
-        const auto of_kind = [&](const Conflict& c) { return static_cast<int>(c.kind) == kind; };
-        const std::vector<Conflict>& all = pair.edited.conflicts;
-        const auto first = std::find_if(all.begin(), all.end(), of_kind);
-        if (first == all.end()) continue;
-        std::int64_t pixels = 0, inherited = 0;
-        double worst = 0;
-        for (const Conflict& c : all) {
-            if (!of_kind(c)) continue;
-            pixels += c.pixels;
-            inherited += c.inherited;
-            worst = std::max(worst, c.worst_px);
-        }
-        const auto others = std::count_if(all.begin(), all.end(), of_kind) - 1;
+    for (int k = 0; k < conflict_kinds; ++k) {
+        const auto kind = static_cast<ConflictKind>(k);
+        const KindTotal total = total_of(pair.edited.conflicts, kind);
+        if (total.places == 0) continue;
         notes.push_back(fmt::format(
-            "{}: {} pixel{}, worst by {:.2f} px ({}{}){}{}", conflict_name(first->kind), pixels,
-            pixels == 1 ? "" : "s", worst, first->what,
-            others > 0 ? fmt::format(", and {} more", others) : "",
-            inherited > 0 ? fmt::format("; {} of them without edits, too", inherited) : "",
-            resolved[static_cast<std::size_t>(kind)] ? "; held back before solving" : "; left as it is"));
+            "{}: {} pixel{}, worst by {:.2f} px ({}{}){}; {}", conflict_name(kind), total.pixels,
+            total.pixels == 1 ? "" : "s", total.worst_px, total.first->what,
+            total.places > 1 ? fmt::format(", and {} more", total.places - 1) : "",
+            total.inherited > 0 ? fmt::format("; {} of them without edits, too", total.inherited) : "",
+            outcome_text(total, kind, settings)));
     }
 }
 

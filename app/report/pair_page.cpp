@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/report/inline_png.h"
+#include "app/report/page_parts.h"
 #include "app/report/pair_charts.h"
 #include "app/report/pair_notes.h"
 #include "app/report/pair_pictures.h"
@@ -21,36 +22,6 @@
 
 namespace obscura {
 namespace {
-
-std::string figure(const std::string& picture, const std::string& caption) {
-    return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>", picture, caption);
-}
-
-std::string section(const char* title, const std::string& text, const std::string& body) {
-    return fmt::format("<section><h2>{}</h2>{}{}</section>\n", title,
-                       text.empty() ? "" : "<p class=\"lead\">" + text + "</p>", body);
-}
-
-int shrink_of(int width) {
-    return (width + report_picture_width - 1) / report_picture_width;
-}
-
-/// Averages of linear light over whole pixels.
-Image<Vec3f> shrunk(const Image<Vec3f>& picture) {
-    const int n = shrink_of(picture.width);
-    if (n == 1) return picture;
-    Image<Vec3f> out(picture.width / n, std::max(picture.height / n, 1));
-    const float share = 1.0f / static_cast<float>(n * n);
-    for (int y = 0; y < out.height; ++y) {
-        for (int x = 0; x < out.width; ++x) {
-            Vec3f sum{0, 0, 0};
-            for (int i = 0; i < n * n; ++i)
-                sum = sum + picture(x * n + i % n, std::min(y * n + i / n, picture.height - 1)) * share;
-            out(x, y) = sum;
-        }
-    }
-    return out;
-}
 
 /// A map as the picture has it: without margins, every n-th pixel.
 DisparityMap shown_map(const MiddleView& view, const DisparityMap& map) {
@@ -93,12 +64,12 @@ std::string disparity_section(const StereoReportInput& in, const Exec& exec) {
     const auto picture = [&](const DisparityMap& map, const char* alt) {
         return inline_png(encode_png(disparity_picture(map, colours, exec).view()), alt);
     };
-    return section("Disparity",
-                   "Left minus right, seen from the middle between the eyes. Grey is the screen; stripes are "
-                   "outside of the comfort zone; nearly black is where nothing is seen.",
-                   "<div class=\"pair\">" + figure(picture(before, "disparity before"), "Before") +
-                       figure(picture(after, "disparity after"), "After") + "</div>" +
-                       scale_bar(in, colours));
+    return page_section(
+        "Disparity",
+        "Left minus right, seen from the middle between the eyes. Grey is the screen; stripes are "
+        "outside of the comfort zone; nearly black is where nothing is seen.",
+        "<div class=\"pair\">" + page_figure(picture(before, "disparity before"), "Before") +
+            page_figure(picture(after, "disparity after"), "After") + "</div>" + scale_bar(in, colours));
 }
 
 std::string anaglyph_section(const StereoReportInput& in, const Exec& exec) {
@@ -107,13 +78,14 @@ std::string anaglyph_section(const StereoReportInput& in, const Exec& exec) {
     };
     std::string body = "<div class=\"pair\">";
     if (!in.unedited_left.pixels.empty())
-        body += figure(picture(in.unedited_left, in.unedited_right, "anaglyph before"), "Before");
+        body += page_figure(picture(in.unedited_left, in.unedited_right, "anaglyph before"), "Before");
     const RenderSettings& render = in.scene.render;
-    body += figure(picture(display_light(in.pair.eyes.left.radiance.view(), render, exec),
-                           display_light(in.pair.eyes.right.radiance.view(), render, exec), "anaglyph after"),
-                   "After");
-    return section("Anaglyph", "For red-cyan glasses, red on the left (least squares after Dubois).",
-                   body + "</div>");
+    body += page_figure(
+        picture(display_light(in.pair.eyes.left.radiance.view(), render, exec),
+                display_light(in.pair.eyes.right.radiance.view(), render, exec), "anaglyph after"),
+        "After");
+    return page_section("Anaglyph", "For red-cyan glasses, red on the left (least squares after Dubois).",
+                        body + "</div>");
 }
 
 std::string css_colour(Vec3f linear) {
@@ -121,38 +93,49 @@ std::string css_colour(Vec3f linear) {
     return fmt::format("#{:02x}{:02x}{:02x}", code.r, code.g, code.b);
 }
 
-std::string conflicts_section(const StereoReportInput& in, const Exec& exec) {
-    const std::vector<Conflict>& list = in.frame.conflicts;
-    const MiddleView& view = in.pair.view;
-    std::string body;
-    if (!list.empty()) {
-        body =
-            "<table><thead><tr><th>conflict</th><th>where</th><th class=\"n\">pixels</th>"
-            "<th class=\"n\">without edits</th><th class=\"n\">worst</th></tr></thead><tbody>";
-        for (const Conflict& c : list) {
-            body += fmt::format(
-                "<tr><td><i class=\"key\" style=\"background:{}\"></i>{}</td><td>{}</td>"
-                "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.2f} px</td></tr>",
-                css_colour(conflict_colour(c.kind)), html_text(conflict_name(c.kind)), html_text(c.what),
-                c.pixels, c.inherited, c.worst_px);
-        }
-        body += "</tbody></table>";
-        if (in.pair.eyes.middle) {
-            const Image<Vec3f> middle = without_margins(
-                display_light(in.pair.eyes.middle->radiance.view(), in.scene.render, exec), view.margin_px);
-            body += figure(
-                inline_png(
-                    encode_display(shrunk(conflict_overlay(middle, view, in.pair.edited.conflict_pixels))),
-                    "conflicts over the middle picture"),
-                "Where the edits alone are in conflict, before solving");
-        }
+std::string conflict_table(const std::vector<Conflict>& list) {
+    std::string body =
+        "<table><thead><tr><th>conflict</th><th>where</th><th class=\"n\">pixels</th>"
+        "<th class=\"n\">without edits</th><th class=\"n\">worst</th></tr></thead><tbody>";
+    for (const Conflict& c : list) {
+        body += fmt::format(
+            "<tr><td><i class=\"key\" style=\"background:{}\"></i>{}</td><td>{}</td>"
+            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.2f} px</td></tr>",
+            css_colour(conflict_colour(c.kind)), html_text(conflict_name(c.kind)), html_text(c.what),
+            c.pixels, c.inherited, c.worst_px);
     }
-    return section("Conflicts",
-                   list.empty()
-                       ? "None: the edits keep the order of objects, the window and the comfort zone."
-                       : "Found in the map as the edits alone make it; what is done about them "
-                         "stands in the notes.",
-                   body);
+    return body + "</tbody></table>";
+}
+
+/// A table of conflicts and where they are, or nothing when there are none.
+std::string conflict_block(const StereoReportInput& in, const std::vector<Conflict>& list,
+                           const Image<std::uint8_t>& pixels, const char* caption, const Exec& exec) {
+    if (list.empty()) return {};
+    std::string body = conflict_table(list);
+    if (!in.pair.eyes.middle) return body;
+    const MiddleView& view = in.pair.view;
+    const Image<Vec3f> middle = without_margins(
+        display_light(in.pair.eyes.middle->radiance.view(), in.scene.render, exec), view.margin_px);
+    return body + page_figure(inline_png(encode_display(shrunk(conflict_overlay(middle, view, pixels))),
+                                         "conflicts over the middle picture"),
+                              caption);
+}
+
+/// `left`: conflicts of the map that is shown.
+std::string conflicts_section(const StereoReportInput& in, const Conflicts& left, const Exec& exec) {
+    const std::vector<Conflict>& list = in.frame.conflicts;
+    return page_section("Conflicts of the edits",
+                        list.empty()
+                            ? "None: the edits keep the order of objects, the window and the comfort zone."
+                            : "Found in the map as the edits alone make it; what is done about them "
+                              "stands in the notes.",
+                        conflict_block(in, list, in.pair.edited.conflict_pixels,
+                                       "Where the edits alone are in conflict, before solving", exec)) +
+           page_section(
+               "Conflicts that are left",
+               left.list.empty() ? "None in the optimised map, which the pictures show."
+                                 : "Found in the optimised map, which the pictures show.",
+               conflict_block(in, left.list, left.pixels, "Where the optimised map is in conflict", exec));
 }
 
 std::string histogram_section(const StereoReportInput& in) {
@@ -172,7 +155,7 @@ std::string histogram_section(const StereoReportInput& in) {
         "<p class=\"keys\"><i class=\"key before\"></i>before <i class=\"key after\"></i>after{} "
         "<span class=\"faint\">heights by the square root of the share</span></p>",
         limited ? " <i class=\"key zone\"></i>comfort zone" : "");
-    return section("Histogram", text, histogram_svg(h, zone, width) + key);
+    return page_section("Histogram", text, histogram_svg(h, zone, width) + key);
 }
 
 std::string solver_section(const StereoReportInput& in) {
@@ -186,7 +169,7 @@ std::string solver_section(const StereoReportInput& in) {
         in.frame.warm ? ", begun at the last frame's map" : "",
         r.converged ? "converged" : "<b class=\"bad\">not converged</b>", r.error_max_px, r.error_rms_px,
         r.residual);
-    return section(
+    return page_section(
         "Convergence", text,
         chart.empty() ? "<p class=\"faint\">This solver makes no estimates on its way.</p>" : chart);
 }
@@ -205,12 +188,12 @@ std::string time_section(const StereoReportInput& in) {
     for (const LevelTime& level : in.frame.solve.levels)
         levels.push_back({fmt::format("{} × {}", level.width, level.height), level.seconds});
     std::string body =
-        "<div class=\"pair\">" + figure(stages, fmt::format("Stages, {} in all", time_text(t.total_s)));
+        "<div class=\"pair\">" + page_figure(stages, fmt::format("Stages, {} in all", time_text(t.total_s)));
     if (!levels.empty())
-        body += figure(
+        body += page_figure(
             bars_svg(levels, "Time per level"),
             fmt::format("Levels of the solver, finest first; set-up {}", time_text(in.frame.solve.setup_s)));
-    return section("Time", "", body + "</div>");
+    return page_section("Time", "", body + "</div>");
 }
 
 std::string unsatisfied_section(const StereoReportInput& in) {
@@ -225,10 +208,10 @@ std::string unsatisfied_section(const StereoReportInput& in) {
             u.against.empty() ? "<span class=\"faint\">what is around</span>" : html_text(u.against));
     }
     if (rows.empty())
-        return section(
+        return page_section(
             "Unsatisfied edits",
             fmt::format("None: everything is within {:.2g} px of what was asked for.", unsatisfied_px), "");
-    return section(
+    return page_section(
         "Unsatisfied edits",
         fmt::format("Missed by more than {:.2g} px somewhere, worst first.", unsatisfied_px),
         "<table><thead><tr><th>edit</th><th class=\"n\">wanted</th><th class=\"n\">reached</th>"
@@ -257,8 +240,8 @@ std::string realised_section(const StereoReportInput& in) {
         error_row("right picture", in.frame.right) +
         (in.frame.temporal ? error_row("against the frame before", *in.frame.temporal) : "");
     if (rows.empty())
-        return section("Triangles and what they show", text, "<p class=\"faint\">Not measured.</p>");
-    return section(
+        return page_section("Triangles and what they show", text, "<p class=\"faint\">Not measured.</p>");
+    return page_section(
         "Triangles and what they show", text,
         "<table><thead><tr><th>measured disparity</th><th class=\"n\">pixels</th>"
         "<th class=\"n\">within tolerance</th><th class=\"n\">rms</th><th class=\"n\">worst</th></tr>"
@@ -279,12 +262,12 @@ std::string sight_row(const char* name, const EyeDisparity& eye) {
 
 std::string occlusion_section(const StereoReportInput& in, const Exec& exec) {
     const TwoWayDisparity eyes = two_way_maps(in.pair, exec);
-    return section("What only one eye sees", "",
-                   "<table><thead><tr><th>picture</th><th class=\"n\">both see</th>"
-                   "<th class=\"n\">hidden from the other</th><th class=\"n\">beyond its side</th>"
-                   "<th class=\"n\">nothing there</th></tr></thead><tbody>" +
-                       sight_row("left eye", eyes.left) + sight_row("right eye", eyes.right) +
-                       "</tbody></table>");
+    return page_section("What only one eye sees", "",
+                        "<table><thead><tr><th>picture</th><th class=\"n\">both see</th>"
+                        "<th class=\"n\">hidden from the other</th><th class=\"n\">beyond its side</th>"
+                        "<th class=\"n\">nothing there</th></tr></thead><tbody>" +
+                            sight_row("left eye", eyes.left) + sight_row("right eye", eyes.right) +
+                            "</tbody></table>");
 }
 
 std::string zone_text(const StereoReportInput& in) {
@@ -342,20 +325,25 @@ std::string settings_section(const StereoReportInput& in) {
             "<table><thead><tr><th>edit</th><th>what it asks for</th><th "
             "class=\"n\">weight</th></tr></thead><tbody>" +
             edits + "</tbody></table>";
-    return section("Settings", "", "<dl>" + items + "</dl>" + edits);
+    return page_section("Settings", "", "<dl>" + items + "</dl>" + edits);
 }
 
-std::string tiles(const StereoReportInput& in) {
+std::int64_t pixels_of(const std::vector<Conflict>& list) {
+    std::int64_t pixels = 0;
+    for (const Conflict& c : list)
+        pixels += c.pixels;
+    return pixels;
+}
+
+std::string tiles(const StereoReportInput& in, const Conflicts& left) {
     const auto tile = [](const std::string& value, const char* name) {
         return fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>", value, name);
     };
-    std::int64_t conflicts = 0;
-    for (const Conflict& c : in.frame.conflicts)
-        conflicts += c.pixels;
     const auto named = std::count_if(in.frame.solve.unsatisfied.begin(), in.frame.solve.unsatisfied.end(),
                                      [](const Unsatisfied& u) { return !u.name.empty(); });
     return "<div class=\"tiles\">" + tile(fmt::format("{}", in.settings.edits.size()), "edits") +
-           tile(fmt::format("{}", conflicts), "pixels in conflict") +
+           tile(fmt::format("{}", pixels_of(in.frame.conflicts)), "pixels in conflict by the edits") +
+           tile(fmt::format("{}", pixels_of(left.list)), "pixels in conflict after solving") +
            tile(fmt::format("{}", named), "edits not satisfied") +
            tile(fmt::format("{}", in.frame.solve.iterations), "iterations") +
            tile(in.frame.realised.pixels > 0 ? fmt::format("{:.2f} %", 100 * in.frame.realised.share()) : "–",
@@ -369,20 +357,21 @@ std::string notes_list(const std::vector<std::string>& notes) {
     std::string items;
     for (const std::string& note : notes)
         items += "<li>" + html_text(note) + "</li>";
-    return section("Notes", "", "<ul>" + items + "</ul>");
+    return page_section("Notes", "", "<ul>" + items + "</ul>");
 }
 
 }  // namespace
 
 std::string stereo_report(const StereoReportInput& in, const Exec& exec) {
     const std::string name = html_text(in.scene_name);
+    const Conflicts left = remaining_conflicts(in.scene, in.settings, in.pair, exec);
     return fmt::format(
                "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>"
                "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>"
                "<title>Stereo report: {}</title><style>{}</style></head>\n<body><main>"
                "<header><p class=\"kind\">Obscura · stereo report</p><h1>{}</h1><p>frame {}</p>{}</header>\n",
-               name, report_style, name, in.frame.frame, tiles(in)) +
-           disparity_section(in, exec) + anaglyph_section(in, exec) + conflicts_section(in, exec) +
+               name, report_style, name, in.frame.frame, tiles(in, left)) +
+           disparity_section(in, exec) + anaglyph_section(in, exec) + conflicts_section(in, left, exec) +
            unsatisfied_section(in) + histogram_section(in) + solver_section(in) + realised_section(in) +
            occlusion_section(in, exec) + time_section(in) + notes_list(in.frame.notes) +
            settings_section(in) + "</main></body></html>\n";

@@ -105,7 +105,8 @@ std::string stereo_stats_json(const StereoReport& report) {
     JsonWriter json;
     json.begin_object();
     put_origin(json, report.run);
-    json.member("layout", report.layout).member("preview", report.preview);
+    json.member("layout", report.layout).member("swapped_eyes", report.swapped_eyes);
+    json.member("preview", report.preview);
     put_execution(json, report.run.exec);
     put_picture_size(json, report.run);
     json.member("limit_bytes", report.run.limit_mib << 20);

@@ -39,7 +39,7 @@ struct StereoFrameReport {
 struct StereoReport {
     RunReport run;  ///< width and height: of one eye's picture
     std::string layout;
-    bool preview = false;
+    bool swapped_eyes = false, preview = false;
     std::vector<StereoFrameReport> frames;
 };
 

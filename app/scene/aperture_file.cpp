@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "app/scene/file_access.h"
@@ -25,35 +26,50 @@ Image<float> from_codes(const GreyCodes& grey) {
     return mask;
 }
 
-Image<float> from_png(std::string_view bytes, const std::string& name, const ImageFileLimits& limits) {
-    const PngFile file = walk_png(bytes, name, limits);
-    if (file.density_x != file.density_y) {
-        throw InputError(name, fmt::format("pixels are not square: chunk pHYs has {} x {} per unit; resample "
-                                           "the picture, or take the chunk out when it is wrong",
-                                           file.density_x, file.density_y));
-    }
-    const Image<Rgba8> picture = decode_png(bytes, name, limits);
+/// `#rrggbb`, two or four digits each.
+template <class Pixel>
+std::string colour_text(const Pixel& p) {
+    const int digits = 2 * static_cast<int>(sizeof p.r);
+    return fmt::format("#{:0{}x}{:0{}x}{:0{}x}", p.r, digits, p.g, digits, p.b, digits);
+}
+
+template <class Pixel>
+Image<float> from_pixels(const Image<Pixel>& picture, const std::string& name) {
+    constexpr auto white = std::numeric_limits<decltype(Pixel::r)>::max();
     Image<float> mask(picture.width, picture.height);
     for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
-        const Rgba8 p = picture.pixels[i];
+        const Pixel p = picture.pixels[i];
         const auto place = [&] {
             const auto width = static_cast<std::size_t>(picture.width);
             return fmt::format("pixel ({}, {})", i % width, i / width);
         };
-        if (p.a != 255) {
+        if (p.a != white) {
             throw InputError(name, fmt::format("{} is transparent: it could mean open or closed. Flatten the "
                                                "picture, white = open, black = closed, and save it without "
                                                "alpha",
                                                place()));
         }
         if (p.r != p.g || p.g != p.b) {
-            throw InputError(name, fmt::format("{} has a colour (#{:02x}{:02x}{:02x}): a mask is grey, white "
-                                               "= open, black = closed",
-                                               place(), p.r, p.g, p.b));
+            throw InputError(name,
+                             fmt::format("{} has a colour ({}): a mask is grey, white = open, black = closed",
+                                         place(), colour_text(p)));
         }
-        mask.pixels[i] = static_cast<float>(p.r) / 255.0f;
+        mask.pixels[i] = static_cast<float>(p.r) / static_cast<float>(white);
     }
     return mask;
+}
+
+Image<float> from_png(std::string_view bytes, const std::string& name, ImageFileLimits limits) {
+    const bool deep = has_16_bit_samples(bytes);
+    if (deep) limits.max_bytes *= 2;  // of as many pixels
+    const PngFile file = walk_png(bytes, name, limits);
+    if (file.density_x != file.density_y) {
+        throw InputError(name, fmt::format("pixels are not square: chunk pHYs has {} x {} per unit; resample "
+                                           "the picture, or take the chunk out when it is wrong",
+                                           file.density_x, file.density_y));
+    }
+    return deep ? from_pixels(decode_png16(bytes, name, limits), name)
+                : from_pixels(decode_png(bytes, name, limits), name);
 }
 
 }  // namespace

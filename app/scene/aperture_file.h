@@ -22,8 +22,8 @@ struct ApertureScale {
 bool names_mask_file(std::string_view text);
 
 /// White is open (1), black closed (0), grey the amplitude that passes: code / white, no transfer curve. In
-/// bit maps bit 0 is white. PNG may be grey, RGB or palette as long as no pixel has a colour; of 16 bits the
-/// upper 8 count. A mask that is open throughout is a box. `name` stands in messages. Throws InputError for
+/// bit maps bit 0 is white. PNG may be grey, RGB or palette as long as no pixel has a colour, of 8 or 16
+/// bits. A mask that is open throughout is a box. `name` stands in messages. Throws InputError for
 /// damaged files, colours, transparency, pixels that are not square, and when nothing is open; LimitError
 /// when the picture exceeds `limits`.
 Image<float> decode_mask(std::string_view bytes, const std::string& name, const ImageFileLimits& limits);

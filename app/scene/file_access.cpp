@@ -101,6 +101,7 @@ fs::path resolve_beside(const FileAccess& access, const fs::path& folder, std::s
     }
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0) fail(name, "cannot open", errno);
+    if (access.read) access.read->add(path);
     return path;
 }
 

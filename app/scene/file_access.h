@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/scene/read_files.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -16,6 +18,7 @@ namespace obscura {
 struct FileAccess {
     std::filesystem::path root;
     std::vector<std::filesystem::path> allowed;  ///< further folders (--allow-path)
+    std::shared_ptr<ReadFiles> read = nullptr;   ///< takes down every file that is found, if anybody asks
 };
 
 /// The InputError of a file that is not there, for callers that can do without it.

@@ -190,7 +190,7 @@ const KeyRows<OpticsSettings>& glare_rows() {
                     "field "
                     "of the aperture, with its rings. The picture itself stays sharp. Everything is in focus "
                     "when not given.")
-                    .in({0, 1e9, true})
+                    .in({1e-6, 1e9})
                     .animate()),
             key_row(&OpticsSettings::focus_steps,
                     integer_key("focus_steps",

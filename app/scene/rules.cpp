@@ -121,11 +121,10 @@ void check_triangles(const SceneDocument& document) {
 // --- frames and outputs
 
 void check_outputs(const SceneTable& root, int frames, const Sources& sources) {
-    std::vector<std::string> files;
+    std::vector<std::filesystem::path> files;
     for (const SceneTable* output : subtables(root, "output")) {
-        const std::string& file = text(*output, "file");
         const Place place = place_of(*output, "file");
-        const std::filesystem::path path(file);
+        const std::filesystem::path path(text(*output, "file"));
         if (path.extension() != ".png" && path.extension() != ".pfm") {
             fail_at(place, sources, "'file' must end in .png or .pfm");
         }
@@ -136,10 +135,11 @@ void check_outputs(const SceneTable& root, int frames, const Sources& sources) {
             fail_at(place, sources,
                     fmt::format("'file' needs #### for the frame number: there are {} frames", frames));
         }
-        if (std::find(files.begin(), files.end(), file) != files.end()) {
+        const std::filesystem::path plain = path.lexically_normal();
+        if (std::find(files.begin(), files.end(), plain) != files.end()) {
             fail_at(place, sources, "another output has the same 'file'");
         }
-        files.push_back(file);
+        files.push_back(plain);
     }
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 
+#include "core/error.h"
 #include "tests/core/temporary_folder.h"
 
 namespace obscura {
@@ -60,6 +61,68 @@ file = "out_####.png"
                             std::filesystem::directory_iterator()),
               1)
         << "something was written";
+}
+
+/// The message and code class of a lens that is refused.
+std::string refused(const TemporaryFolder& folder, const std::string& optics,
+                    std::vector<std::string> overrides = {}) {
+    folder.write("a.toml",
+                 "format = 1\n[camera]\neye_m = [0, 2, 6]\nlook_at_m = [0, 0, 0]\n[render]\nsize_px = [20, "
+                 "16]\n[optics]\n" +
+                     optics);
+    try {
+        check_report({folder.path / "a.toml", std::move(overrides), {}});
+    } catch (const InputError& error) {
+        return "input: " + std::string(error.what());
+    } catch (const LimitError& error) {
+        return "limit: " + std::string(error.what());
+    }
+    return "";
+}
+
+TEST(CheckCommand, TwoSpellingsOfAFileAreOneOutput) {
+    const TemporaryFolder folder;
+    const std::string text =
+        refused(folder, "[[output]]\nfile = \"x.png\"\n[[output]]\nfile = \"./x.png\"\n");
+    EXPECT_NE(text.find("a.toml:11:8: another output has the same 'file'"), std::string::npos) << text;
+}
+
+TEST(CheckCommand, LensesThatNothingHasAreToldAtTheirKey) {
+    const TemporaryFolder folder;
+    const std::string file = (folder.path / "a.toml").string();
+    const std::string range = "; on the sensor they must be from 1e-09 to 1 m wide";
+    EXPECT_EQ(refused(folder, "sensor_width_mm = 30000\n"),
+              "input: " + file + ":8:19: 'sensor_width_mm' makes pixels of 1.5 m" + range);
+    EXPECT_EQ(refused(folder, "focal_length_mm = 1e6\n"),
+              "input: " + file + ":8:19: 'focal_length_mm' makes pixels of 45.4963 m" + range);
+    EXPECT_EQ(refused(folder, "sensor_width_mm = 1e-300\n"),
+              "input: " + file + ":8:19: 'sensor_width_mm' makes pixels of 5e-305 m" + range);
+    EXPECT_EQ(refused(folder, "", {"camera.focal_length_mm=50", "camera.sensor_height_mm=1e6"}),
+              "input: -D camera.sensor_height_mm=1e6: 'sensor_height_mm' makes pixels of 62.5 m" + range);
+    EXPECT_EQ(refused(folder, "", {"camera.vfov_deg=1e-300"}),
+              "input: -D camera.vfov_deg=1e-300: 'vfov_deg' makes a lens of 1.3751e+300 m focal length; with "
+              "[optics] it must be from 1e-09 to 1e+09 m");
+    EXPECT_EQ(refused(folder, "", {"camera.focal_length_mm=1e-320"}).find("input: -D camera.focal_length_mm"),
+              0u);
+    EXPECT_EQ(refused(folder, "sensor_width_mm = 30\n"), "");
+}
+
+TEST(CheckCommand, EveryTurnOfALensThatTheFormatAllowsIsMade) {
+    const TemporaryFolder folder;
+    for (const char* turn : {"-36000", "3601", "36000"}) {
+        EXPECT_EQ(refused(folder, "aperture = \"iris\"\nmask_px = 64\nradius_px = 4\n",
+                          {"optics.rotation_deg=" + std::string(turn)}),
+                  "");
+    }
+}
+
+TEST(CheckCommand, PatternsOutOfReachAreToldWhereTheLensIs) {
+    const TemporaryFolder folder;
+    const std::string text = refused(folder, "radius_px = 4096\nf_number = 16\n");
+    EXPECT_EQ(
+        text.find("limit: " + (folder.path / "a.toml").string() + ":7:2: the lens's pattern needs 2.16e+12 "),
+        0u)
+        << text;
 }
 
 }  // namespace

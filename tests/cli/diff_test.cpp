@@ -109,6 +109,30 @@ TEST_F(Diff, ComparesLinearFloats) {
     EXPECT_NE(printed.find("differ  1 pixels above 0.3"), std::string::npos) << printed;
 }
 
+TEST_F(Diff, SixteenBitsCountWhenEitherPictureHasThem) {
+    Image<std::uint16_t> a(12, 12, 0x1200), b = a;
+    b(3, 4) = 0x12ff;
+    DiffOptions options{
+        save("a.png", encode_png(a.view())), save("b.png", encode_png(b.view())), 254.0, 0, {}, {}, {}};
+    EXPECT_EQ(run(options), 10);
+    EXPECT_NE(printed.find("3 channels, codes 0..65535\nmax     255 at pixel 3,4\n"), std::string::npos)
+        << printed;
+    // 8 bits are spread over the same codes: 0x64 is 0x6464.
+    const Image<Rgb8> shallow(12, 12, {0x64, 0x64, 0x64});
+    const Image<std::uint16_t> deep(12, 12, 0x6464);
+    options = {save("c.png", encode_png(shallow.view())),
+               save("d.png", encode_png(deep.view())),
+               0.0,
+               0,
+               {},
+               {},
+               {}};
+    EXPECT_EQ(run(options), 0) << printed;
+    std::swap(options.a, options.b);
+    EXPECT_EQ(run(options), 0) << printed;
+    EXPECT_NE(printed.find("codes 0..65535"), std::string::npos) << printed;
+}
+
 TEST_F(Diff, AlphaCountsWhenUsed) {
     Image<Rgba8> a(12, 12), b(12, 12);
     b(2, 2).a = 0;

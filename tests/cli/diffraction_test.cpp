@@ -9,6 +9,7 @@
 
 #include "core/image_io.h"
 #include "tests/cli/program.h"
+#include "tests/report/json_reader.h"
 
 namespace obscura::test {
 namespace {
@@ -140,6 +141,28 @@ TEST(DiffractionCommand, ASpotStandsBehindADisc) {
     const Image<float> light = grey_pfm(folder, "c.pfm");
     EXPECT_NEAR(light(32, 32), expected, 0.06) << "the mask has texels";
     EXPECT_NE(run.out.find("near field at 2000 mm"), std::string::npos) << run.out;
+}
+
+TEST(DiffractionCommand, TheFresnelNumberIsThatOfTheOpening) {
+    const Folder folder;
+    // Open 100 x 60 texels of 1 um in a wide mask: a = 50 um.
+    std::string mask = "P5\n512 300\n255\n" + std::string(512 * 300, '\0');
+    for (std::size_t y = 20; y < 80; ++y)
+        std::fill_n(mask.begin() + static_cast<std::ptrdiff_t>(mask.size() - 512 * 300 + 512 * y + 300), 100,
+                    '\xff');
+    folder.write("hole.pgm", mask);
+    const auto told = [&](const std::string& near_mm) {
+        return run_in(folder, {"diffraction", "hole.pgm", "--pitch-um", "1", "--near", near_mm,
+                               "--wavelength-nm", "500", "--plan"});
+    };
+    EXPECT_NE(told("5").out.find("Fresnel number 1 at 500 nm"), std::string::npos) << told("5").out;
+    EXPECT_EQ(told("40").err, "");
+    EXPECT_NE(told("60").err.find("all but the far field's"), std::string::npos);
+    const Outcome made =
+        run_in(folder, {"diffraction", "hole.pgm", "--pitch-um", "1", "--near", "2.5", "--size", "16",
+                        "--wavelength-nm", "500", "-o", "h.png", "--stats-json", "h.json"});
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_NEAR(parse_json(file_text(folder / "h.json")).at("fresnel_number").number, 2, 1e-12);
 }
 
 TEST(DiffractionCommand, ThePlanNamesMethodAndReason) {

@@ -77,7 +77,7 @@ bool wait_for_progress(const Program& program) {
 }
 
 TEST(Render, SignalsLeaveNoFile) {
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1, SIGALRM, SIGRTMIN}) {
         const SceneFolder folder;
         Program program(long_render("x.png"));
         program.folder = folder.path;
@@ -89,6 +89,88 @@ TEST(Render, SignalsLeaveNoFile) {
         EXPECT_EQ(run.err.find("error"), std::string::npos) << run.err;
         EXPECT_EQ(folder.listing(), (Names{"s.toml"}));
     }
+}
+
+bool has_temporary(const Folder& folder) {
+    const Names names = folder.listing();
+    return std::any_of(names.begin(), names.end(),
+                       [](const std::string& name) { return name.find(".part.") != std::string::npos; });
+}
+
+/// Sends `signal` while a file is being written; the exit code. 0: it was ready before.
+int end_while_writing(const Folder& folder, int signal) {
+    Program program({"render", "s.toml", "--size", "2000x1500", "--samples", "1", "-q", "-o", "x.pfm",
+                     "--aov", "normal,albedo", "--overwrite"});
+    program.folder = folder.path;
+    program.start();
+    while (program.running() && !has_temporary(folder)) {
+    }
+    program.send(signal);
+    return program.wait().code;
+}
+
+TEST(Render, SignalsWhileAFileIsWrittenLeaveNoTemporary) {
+    // Faults keep what they are: the process is killed by its signal.
+    for (const auto& [signal, expected] : std::vector<std::pair<int, int>>{{SIGHUP, 128 + SIGHUP},
+                                                                           {SIGQUIT, 128 + SIGQUIT},
+                                                                           {SIGXCPU, 128 + SIGXCPU},
+                                                                           {SIGUSR2, 128 + SIGUSR2},
+                                                                           {SIGABRT, 1000 + SIGABRT},
+                                                                           {SIGSEGV, 1000 + SIGSEGV}}) {
+        const SceneFolder folder;
+        int code = 0;
+        for (int tries = 0; code == 0 && tries < 5; ++tries)
+            code = end_while_writing(folder, signal);
+        EXPECT_EQ(code, expected);
+        EXPECT_FALSE(has_temporary(folder)) << signal;
+    }
+}
+
+TEST(Render, AParentThatIgnoresASignalMeansIt) {
+    const SceneFolder folder;
+    const std::string command = std::string("trap '' HUP; exec ") + OBSCURA_BINARY +
+                                " render s.toml --size 1000x750 --samples 1 -q -o x.pfm --aov normal";
+    Program program({"-c", command}, "/bin/sh");
+    program.folder = folder.path;
+    program.start();
+    while (program.running() && !has_temporary(folder)) {
+    }
+    program.send(SIGHUP);
+    EXPECT_EQ(program.wait().code, 0);
+    EXPECT_EQ(folder.listing(), (Names{"s.toml", "x.normal.pfm", "x.pfm"}));
+}
+
+TEST(Render, FilesLargerThanTheLimitAreOutputErrors) {
+    const SceneFolder folder;
+    for (const Names& line : std::vector<Names>{
+             {"render", "s.toml", "-q", "--size", "200x150", "-o", "x.pfm"},
+             {"render", "s.toml", "-q", "-o", "x.pfm", "--stats-json", "x.json"},
+             {"stereo", "s.toml", "-q", "-o", "x.png", "--maps", "m"},
+             {"diffraction", "box", "--mask-size", "16", "--size", "64", "-o", "x.pfm"},
+         }) {
+        Program program(line);
+        program.folder = folder.path;
+        program.file_bytes = 600;
+        const Outcome run = program.run();
+        EXPECT_EQ(run.code, 5) << line[0] << run.err;
+        EXPECT_NE(run.err.find(": cannot be written: File too large\n"), std::string::npos) << run.err;
+        EXPECT_FALSE(has_temporary(folder)) << line[0];
+    }
+}
+
+TEST(Render, ACacheThatCannotBeWrittenLeavesNoFolder) {
+    std::string text = small_scene;
+    text.replace(text.find("resolution"), 0, "scope = \"full\"\ncache = \"maps\"\n");
+    const Folder folder;
+    folder.write("s.toml", text);
+    Program program({"render", "s.toml", "-q", "-o", "x.png"});
+    program.folder = folder.path;
+    program.file_bytes = 100;
+    const Outcome run = program.run();
+    EXPECT_EQ(run.code, 5) << run.err;
+    EXPECT_NE(run.err.find("lamp.shadowtree: cannot be written: File too large"), std::string::npos)
+        << run.err;
+    EXPECT_EQ(folder.listing(), (Names{"s.toml"}));
 }
 
 TEST(Render, AKilledRunLeavesTheOldFileAlone) {

@@ -98,7 +98,11 @@ class Program {
     bool out_closed = false;               ///< starts without a standard output
     bool err_on_terminal = false;          ///< standard error is a terminal
     bool out_broken_pipe = false;          ///< standard output is a pipe nobody reads
+    std::string err_target;                ///< file or device for standard error instead of capturing it
+    bool err_closed = false;               ///< starts without a standard error
+    bool err_broken_pipe = false;          ///< standard error is a pipe nobody reads
     std::optional<rlim_t> memory_bytes;    ///< ulimit -v
+    std::optional<rlim_t> file_bytes;      ///< ulimit -f; its streams are files, too
     std::vector<std::string> environment;  ///< NAME=value on top of ours
 
     explicit Program(std::vector<std::string> arguments_, std::string binary_ = OBSCURA_BINARY,
@@ -169,22 +173,31 @@ class Program {
         ::close(fd);
     }
 
+    static void redirect_to_broken_pipe(int to) {
+        int ends[2];
+        if (::pipe(ends) != 0) ::_exit(122);
+        ::close(ends[0]);
+        ::dup2(ends[1], to);
+        ::close(ends[1]);
+    }
+
+    static void limit(int resource, const std::optional<rlim_t>& most) {
+        if (!most) return;
+        const rlimit both{*most, *most};
+        ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
+    }
+
     [[noreturn]] void become_obscura() const {
         if (::chdir(folder.c_str()) != 0) ::_exit(121);
-        redirect(err_on_terminal ? terminal_name : (streams / "err").string(), 2);
+        const std::string err = err_target.empty() ? (streams / "err").string() : err_target;
+        redirect(err_on_terminal ? terminal_name : err, 2);
         redirect(out_target.empty() ? (streams / "out").string() : out_target, 1);
-        if (out_broken_pipe) {
-            int ends[2];
-            if (::pipe(ends) != 0) ::_exit(122);
-            ::close(ends[0]);
-            ::dup2(ends[1], 1);
-            ::close(ends[1]);
-        }
+        if (out_broken_pipe) redirect_to_broken_pipe(1);
+        if (err_broken_pipe) redirect_to_broken_pipe(2);
         if (out_closed) ::close(1);
-        if (memory_bytes) {
-            const rlimit limit{*memory_bytes, *memory_bytes};
-            ::setrlimit(RLIMIT_AS, &limit);
-        }
+        if (err_closed) ::close(2);
+        limit(RLIMIT_AS, memory_bytes);
+        limit(RLIMIT_FSIZE, file_bytes);
         for (const std::string& variable : environment) {
             const std::size_t equals = variable.find('=');
             ::setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);

@@ -275,6 +275,19 @@ TEST(Render, TerminalsSeeOneLineThatRenewsItself) {
     EXPECT_EQ(said({"-q"}), "");
 }
 
+TEST(Render, TerminalsWithoutEscapeSequencesSeeLines) {
+    const SceneFolder folder;
+    for (const char* term : {"TERM=dumb", "TERM=", "TERM=unknown"}) {
+        Program program({"render", "s.toml", "--overwrite"});
+        program.folder = folder.path;
+        program.err_on_terminal = true;
+        program.environment = {term};
+        const std::string said = program.run().err;
+        EXPECT_EQ(said.find('\x1b'), std::string::npos) << term << said;
+        EXPECT_NE(said.find("frame 1 (1 of 1): 100 %"), std::string::npos) << term << said;
+    }
+}
+
 TEST(Render, APixelIsExplainedAndNothingWritten) {
     const SceneFolder folder;
     folder.write("s.png", "mine");

@@ -13,6 +13,8 @@
 namespace obscura::test {
 namespace {
 
+using Names = std::vector<std::string>;
+
 const std::string edits = R"([stereo]
 interaxial_m = 0.2
 zero_parallax_m = 7
@@ -82,6 +84,33 @@ TEST_F(StereoCli, EveryLayoutHasItsSize) {
     EXPECT_TRUE(same(png(folder, "two.left.png"), left));
     EXPECT_TRUE(same(png(folder, "two.right.png"), right));
     EXPECT_FALSE(std::filesystem::exists(folder / "two.png"));
+}
+
+TEST_F(StereoCli, EyesChangeOverWhereALayoutShowsBoth) {
+    const auto picture = [&](const std::string& layout, const Names& more = {}) {
+        Names line{"s.toml", "-q", "--overwrite", "--layout", layout, "-o", "p.png"};
+        line.insert(line.end(), more.begin(), more.end());
+        const Outcome made = run(line);
+        EXPECT_EQ(made.code, 0) << made.err;
+        return png(folder, "p.png");
+    };
+    const Names swap{"--swap-eyes"};
+    EXPECT_TRUE(same(picture("side-by-side", swap), picture("cross-eye")));
+    EXPECT_TRUE(same(picture("cross-eye", swap), picture("side-by-side")));
+    const Image<Rgba8> left = picture("left"), right = picture("right"), plain = picture("interlaced"),
+                       swapped = picture("interlaced", {"--swap-eyes", "--stats-json", "p.json"});
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            ASSERT_EQ(plain(x, y), (y % 2 == 0 ? left : right)(x, y));
+            ASSERT_EQ(swapped(x, y), (y % 2 == 0 ? right : left)(x, y));
+        }
+    }
+    EXPECT_NE(file_text(folder / "p.json").find("\"swapped_eyes\": true"), std::string::npos);
+    for (const std::string layout : {"left", "right", "separate"}) {
+        const Outcome refused = run({"s.toml", "--layout", layout, "-o", "q.png", "--swap-eyes"});
+        EXPECT_EQ(refused.code, 2);
+        EXPECT_EQ(refused.err, "obscura: error: --swap-eyes: layout '" + layout + "' names its eyes\n");
+    }
 }
 
 TEST_F(StereoCli, ThreadsAndInstructionsGiveTheSameBytes) {

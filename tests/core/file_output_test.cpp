@@ -148,6 +148,20 @@ TEST_F(FileOutput, SymbolicLinksAreFollowedAndKept) {
     EXPECT_EQ(entries(), 4u);
 }
 
+TEST_F(FileOutput, OnePlaceHasManyNames) {
+    fs::create_directory(folder / "sub");
+    fs::create_directory_symlink("sub", folder / "other");
+    fs::create_symlink("x", folder / "sub" / "link");  // leads to nothing yet
+    const fs::path place = fs::canonical(folder) / "sub" / "x";
+    for (const char* name : {"sub/x", "sub/./x", "sub/../sub/x", "other/x", "sub/link", "other/link"})
+        EXPECT_EQ(place_of_output(folder / name), place) << name;
+    write_file_atomically(folder / "other" / "link", "there");
+    EXPECT_EQ(content(place), "there");
+    EXPECT_EQ(place_of_output(folder / "sub" / "link"), place);
+    EXPECT_EQ(place_of_output("x"), fs::canonical(fs::current_path()) / "x");
+    EXPECT_NE(place_of_output(folder / "x"), place);
+}
+
 TEST_F(FileOutput, PipeIsWrittenDirectly) {
     const fs::path pipe = folder / "pipe";
     ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);

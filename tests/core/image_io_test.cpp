@@ -130,6 +130,29 @@ TEST(Png, EveryColourTypeAndDepthDecodes) {
     }
 }
 
+TEST(Png, SixteenBitsAreKept) {
+    Image<std::uint16_t> image(256, 256);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] = static_cast<std::uint16_t>(i);
+    const std::string file = encode_png(image.view());
+    EXPECT_TRUE(has_16_bit_samples(file));
+    const Image<Rgba16> decoded = decode_png16(file, "deep.png");
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const std::uint16_t v = image.pixels[i];
+        ASSERT_EQ(decoded.pixels[i], (Rgba16{v, v, v, 65535}));
+    }
+    // Alpha and colours, by hand.
+    const Image<Rgba16> rgba =
+        decode_png16(png_file(1, 1, 16, 6, false, std::string("\0\1\2\3\4\5\6\7\x8", 9)), "rgba.png");
+    EXPECT_EQ(rgba(0, 0), (Rgba16{0x102, 0x304, 0x506, 0x708}));
+    // Fewer bits are spread.
+    const std::string shallow = encode_png(Image<Rgb8>(1, 1, {0, 1, 255}).view());
+    EXPECT_FALSE(has_16_bit_samples(shallow));
+    EXPECT_EQ(decode_png16(shallow, "shallow.png")(0, 0), (Rgba16{0, 257, 65535, 65535}));
+    EXPECT_FALSE(has_16_bit_samples(file.substr(0, 24)));
+    EXPECT_THROW(decode_png16(file, "deep.png", {16384, 256 * 256 * 8 - 1}), LimitError);
+}
+
 TEST(Png, PaletteWithTransparencyDecodes) {
     std::string file = png_begin(4, 1, 2, 3, false);
     file += png_chunk("PLTE", std::string("\x10\x20\x30\xff\x00\x00\x00\xff\x00\x00\x00\xff", 12));

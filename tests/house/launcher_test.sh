@@ -66,6 +66,17 @@ refuse "first run" "$calls" "libbenchmark-dev"
 refuse "first run" "$calls" "libeigen3-dev"
 expect "first run" "$calls" "ninja -C $work/house/build/release -n obscura"$'\n'
 
+# Messages that nobody can read end nothing.
+for unreadable in '2>/dev/full' '2>&-' '2> >(exit 0)'; do
+    fresh
+    code=$(cd "$work" && eval "PATH='$work/bin:$PATH' '$work/house/obscura' version $unreadable >/dev/null"; echo $?)
+    expect "unreadable messages, $unreadable" "$code" 7
+    code=$(cd "$work" && eval "OBSCURA_PRESET=none '$work/house/obscura' version $unreadable >/dev/null"; echo $?)
+    expect "unreadable error, $unreadable" "$code" 2
+done
+fresh
+run version
+
 # Second run: asks nobody, says nothing.
 : >"$work/calls"
 run check

@@ -161,7 +161,7 @@ TEST(StereoReport, PicturesDecode) {
         EXPECT_TRUE(picture.width == 640 || (picture.width == 120 && picture.height == 80)) << picture.width;
         ++pictures;
     }
-    EXPECT_EQ(pictures, 6);  // two maps, their scale, two anaglyphs, conflicts
+    EXPECT_EQ(pictures, 7);  // two maps, their scale, two anaglyphs, conflicts of the edits and what is left
 }
 
 TEST(StereoReport, NamesAreTextNotTags) {
@@ -201,6 +201,25 @@ TEST(StereoReport, TellsTheNumbersOfThePair) {
         dots += (s.residual > 0 ? 1u : 0u) + (s.error_max_px > 0 ? 1u : 0u) + (s.error_rms_px > 0 ? 1u : 0u);
     EXPECT_EQ(count(page(), "<circle"), dots);
     EXPECT_GT(dots, 6u);
+}
+
+TEST(StereoReport, TellsWhatIsLeftInTheOptimisedMap) {
+    const Fixture& f = fixture();
+    const Conflicts left = remaining_conflicts(f.scene, f.settings, f.pair, {});
+    ASSERT_FALSE(left.list.empty());
+    const std::size_t at = page().find("<h2>Conflicts that are left</h2>");
+    ASSERT_NE(at, std::string::npos);
+    for (const Conflict& c : left.list)
+        EXPECT_NE(page().find(fmt::format("<td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
+                                          html_text(c.what), c.pixels, c.inherited),
+                              at),
+                  std::string::npos)
+            << c.what;
+    EXPECT_NE(page().find(fmt::format(
+                  "<b>{}</b><span>pixels in conflict after solving</span>",
+                  left.count(ConflictKind::depth_inversion) + left.count(ConflictKind::window_violation) +
+                      left.count(ConflictKind::comfort) + left.count(ConflictKind::fold))),
+              std::string::npos);
 }
 
 TEST(StereoReport, HistogramCountsEveryPixelOnce) {

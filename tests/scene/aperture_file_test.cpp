@@ -55,6 +55,21 @@ TEST(ApertureFile, WhiteIsOpen) {
     EXPECT_EQ(decode("P1\n2 2\n0000").pixels, (std::vector<float>{1, 1, 1, 1}));
 }
 
+TEST(ApertureFile, SixteenBitsCount) {
+    const auto deep = [](const std::string& row, int type = 0) {
+        const int samples = type == 0 ? 1 : 3;
+        return png_file(static_cast<int>(row.size()) / 2 / samples, 1, 16, type, false,
+                        std::string(1, '\0') + row);
+    };
+    EXPECT_EQ(decode(deep(std::string("\0\1\x12\x34\xff\xff", 6))).pixels,
+              (std::vector<float>{1 / 65535.0f, 0x1234 / 65535.0f, 1}));
+    // Darker than one code of eight bits, but not closed; a colour in the low bytes is one.
+    EXPECT_EQ(decode(deep(std::string("\0\xff", 2))).pixels, (std::vector<float>{255 / 65535.0f}));
+    EXPECT_EQ(
+        bad(deep(std::string("\x12\x34\x12\x34\x12\x35", 6), 2)),
+        "mask: pixel (0, 0) has a colour (#123412341235): a mask is grey, white = open, black = closed");
+}
+
 TEST(ApertureFile, WhatIsNoMask) {
     EXPECT_EQ(bad("GIF89a"), "mask: a mask is a PNG, PBM or PGM file, and this is none by its first bytes");
     EXPECT_EQ(bad("P1\n2 2\n1111"),

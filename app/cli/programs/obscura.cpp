@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "app/cli/diffraction_command.h"
 #include "app/cli/dump_command.h"
 #include "app/cli/info_command.h"
+#include "app/cli/messages.h"
 #include "app/cli/render_command.h"
 #include "app/cli/run_program.h"
 #include "app/cli/sibling_program.h"
@@ -62,12 +62,12 @@ std::vector<std::string> command_names() {
 
 int run_command(const Arguments& arguments) {
     if (arguments.empty()) {
-        fmt::print(stderr, "{}", short_help());
+        say(short_help());
         return static_cast<int>(ExitCode::usage);
     }
     const std::string& name = arguments.front();
     if (name == "-h" || name == "--help") {
-        fmt::print("{}", short_help());
+        print(short_help());
         return 0;
     }
     const Arguments rest(arguments.begin() + 1, arguments.end());

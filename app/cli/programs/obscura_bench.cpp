@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "app/cli/flags.h"
+#include "app/cli/messages.h"
 #include "app/cli/run_program.h"
 #include "app/scene/schema.h"
 #include "bench/benches.h"
@@ -50,10 +50,7 @@ int run_bench(const Arguments& arguments) {
     if (!data.empty()) options.data = data;
     options.runs = static_cast<int>(runs);
     if (threads > 0) options.threads = {static_cast<int>(threads)};
-    options.say = [](const std::string& line) {
-        fmt::print("{}\n", line);
-        std::fflush(stdout);
-    };
+    options.say = [](const std::string& line) { print(line + "\n"); };
     return bench->run(options);
 }
 

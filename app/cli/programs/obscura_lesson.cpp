@@ -6,6 +6,7 @@
 
 #include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
+#include "app/cli/messages.h"
 #include "app/cli/run_program.h"
 #include "app/report/output_plan.h"
 #include "core/error.h"
@@ -48,7 +49,7 @@ int run_lesson(const Arguments& arguments) {
     check_writable(output, existing);
     const Image<Rgb8> picture = draw_lesson(lesson, {isa_value("--isa", isa), static_cast<int>(threads)});
     write_file_atomically(output, encode_png(picture.view()), existing);
-    fmt::print("{}\n", output);
+    print(output + "\n");
     return 0;
 }
 
