@@ -105,11 +105,12 @@ Image<Rgb8> lesson_4_intervals(const Exec& exec) {
     draw_row(f, scene, fixed, Receivers::static_only, exec);
     f.text({40, 732}, "static", lettering::head);
     f.paragraph({40, 758}, "only these\nsurfaces ask:\nfrom the first\nto the next, all\ndepths will do");
-    f.legend({180, 936}, {{Mark::line, ink::dark, "counter"},
-                          {Mark::square, ink::blue, "interval [entry, exit]"},
-                          {Mark::square, ink::yellow, "stored depth: its middle or near its entry, 1 where nothing is"},
-                          {Mark::line, ink::green, "open sheet"},
-                          {Mark::line, ink::orange, "ray"}});
+    f.legend({180, 936},
+             {{Mark::line, ink::dark, "counter"},
+              {Mark::square, ink::blue, "interval [entry, exit]"},
+              {Mark::square, ink::yellow, "stored depth: its middle or near its entry, 1 where nothing is"},
+              {Mark::line, ink::green, "open sheet"},
+              {Mark::line, ink::orange, "ray"}});
     f.source_line(4,
                   "raster/layers.h layers_of · raster/intervals.h interval_of · raster/interval_map.h "
                   "interval_map · core/types.h stored_depth");
