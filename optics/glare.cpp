@@ -33,8 +33,14 @@ struct Box {
     int height() const { return y1 - y0; }
 };
 
-/// Moves the pixels above the clip level out of the picture, one list per kernel. Negative channels are no
-/// light and stay.
+/// Share of a pixel's light that glares: a smooth step from 0 at the clip level to 1 at twice as much.
+float glaring_share(float largest, double clip) {
+    const double t = std::clamp((static_cast<double>(largest) - clip) / clip, 0.0, 1.0);
+    return static_cast<float>(t * t * (3 - 2 * t));
+}
+
+/// Moves what glares of the pixels above the clip level out of the picture, one list per kernel. Negative
+/// channels are no light and stay.
 std::vector<std::vector<Source>> take_sources(ImageView<Vec3f> picture, const GlareKernels& kernels,
                                               double clip) {
     std::vector<std::vector<Source>> sources(kernels.kernels.size());
@@ -46,8 +52,10 @@ std::vector<std::vector<Source>> take_sources(ImageView<Vec3f> picture, const Gl
             if (!finite || !(static_cast<double>(largest) > clip)) continue;
             const std::size_t k = kernels.choice.data == nullptr ? 0 : kernels.choice(x, y);
             CHECK(k < sources.size(), "a pixel chose a kernel that is not there");
-            sources[k].push_back({x, y, {std::max(p.x, 0.0f), std::max(p.y, 0.0f), std::max(p.z, 0.0f)}});
-            p = {std::min(p.x, 0.0f), std::min(p.y, 0.0f), std::min(p.z, 0.0f)};
+            const float share = glaring_share(largest, clip);
+            const Vec3f light = Vec3f{std::max(p.x, 0.0f), std::max(p.y, 0.0f), std::max(p.z, 0.0f)} * share;
+            sources[k].push_back({x, y, light});
+            p = p - light;
         }
     }
     return sources;

@@ -17,7 +17,9 @@
 namespace obscura {
 
 struct GlareParams {
-    /// Radiance from which on a pixel (its largest channel) glares; exposure is the caller's to take out.
+    /// Radiance from which on a pixel (its largest channel) glares: a growing share of its light, all of it
+    /// from twice as much on, so that a sky that passes the level shows no contour. Exposure is the caller's
+    /// to take out. Above 0.
     double clip = 1;
     /// 1, 2, 4 or 8: what lies farther than 2 to 4 bloom_scale pixels from a source is computed at 1 /
     /// bloom_scale of the resolution, and interpolated.
@@ -41,7 +43,7 @@ struct GlareKernels {
     ImageView<const std::uint16_t> choice;
 };
 
-/// Replaces every pixel brighter than the clip level by its light spread over its kernel. Linear radiance;
+/// Spreads what glares of every pixel brighter than the clip level over its kernel. Linear radiance;
 /// what falls outside the picture is lost, what kernels of a sum below 1 hold back is blocked (both are
 /// counted). Energy: sum of the picture + lost + blocked = sum before, within 1e-4 of the sources', unless
 /// pixels would grow beyond the largest float, where they stop. Negative channels are no light: they stay,

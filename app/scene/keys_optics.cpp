@@ -104,7 +104,8 @@ const KeyRows<OpticsSettings>& lens_rows() {
             &OpticsSettings::clip,
             number_key("clip",
                        "Radiance, after exposure, of the brightest that the sensor shows: pixels above it "
-                       "(their largest channel) glare.")
+                       "(their largest channel) glare, the more of their light the brighter they are, all "
+                       "of it from twice as much on.")
                 .in({0, 1e9, true})
                 .animate()),
         key_row(&OpticsSettings::mask_px, integer_key("mask_px", "Texels a side of a shape's mask.")

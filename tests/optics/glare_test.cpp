@@ -21,11 +21,10 @@ Image<Vec3d> oracle(const Image<Vec3f>& picture, const Image<Vec3f>& kernel, flo
     const int r = kernel.width / 2;
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
-            const Vec3d light = to_double(picture(x, y));
-            if (largest(picture(x, y)) <= clip) {
-                out(x, y) = out(x, y) + light;
-                continue;
-            }
+            const double t = std::clamp<double>((largest(picture(x, y)) - clip) / clip, 0, 1),
+                         share = t * t * (3 - 2 * t);
+            const Vec3d light = to_double(picture(x, y)) * share;
+            out(x, y) = out(x, y) + to_double(picture(x, y)) * (1 - share);
             for (int v = std::max(0, y - r); v <= std::min(picture.height - 1, y + r); ++v) {
                 for (int u = std::max(0, x - r); u <= std::min(picture.width - 1, x + r); ++u)
                     out(u, v) = out(u, v) + light * to_double(kernel(u - x + r, v - y + r));
@@ -287,6 +286,40 @@ TEST(Glare, TheMostItMayTakeGrowsWithPictureAndKernel) {
     EXPECT_GE(small.bytes, 64 * 64 * 12);
     EXPECT_LT(most_glare(512, 512, 513, {.clip = 1, .bloom_scale = 4}).bytes,
               most_glare(512, 512, 513, {}).bytes);
+}
+
+/// A sky that grows brighter through the clip level and far beyond, under kernels that keep from 84 to 98 %
+/// in place.
+TEST(Glare, ASmoothSkyShowsNoContour) {
+    for (const double kept : {0.982, 0.942, 0.84}) {
+        constexpr int side = 41, reach = side / 2;
+        Image<Vec3f> kernel(side, side);
+        double tails = 0;
+        const auto tail = [](int dx, int dy) { return std::pow(dx * dx + dy * dy, -1.5); };
+        for (int y = -reach; y <= reach; ++y) {
+            for (int x = -reach; x <= reach; ++x)
+                tails += x == 0 && y == 0 ? 0.0 : tail(x, y);
+        }
+        for (int y = -reach; y <= reach; ++y) {
+            for (int x = -reach; x <= reach; ++x) {
+                const auto v = static_cast<float>(x == 0 && y == 0 ? kept : (1 - kept) * tail(x, y) / tails);
+                kernel(x + reach, y + reach) = {v, v, v};
+            }
+        }
+        Image<Vec3f> sky(640, 96);
+        for (int y = 0; y < sky.height; ++y) {
+            for (int x = 0; x < sky.width; ++x) {
+                const float v = 0.5f + 2.5f * static_cast<float>(x) / 640.0f;
+                sky(x, y) = {v, 0.9f * v, 0.8f * v};
+            }
+        }
+        const Image<Vec3f> glare = add_glare(std::as_const(sky).view(), kernel, GlareParams{}, Exec{});
+        for (int x = 1; x < 600; ++x) {
+            const auto at = [&](int column) { return static_cast<double>(glare(column, 48).x); };
+            EXPECT_GT(at(x), at(x - 1)) << x;
+            EXPECT_NEAR(at(x), 0.5 * (at(x - 1) + at(x + 1)), 1e-3 * at(x)) << x;
+        }
+    }
 }
 
 }  // namespace
