@@ -113,7 +113,7 @@ int render_command(const RenderOptions& options) {
     const SceneRun& run = options.run;
     const RenderPlan plan = in_stage("reading the scene", [&] { return plan_render(options); });
     if (!plan.pixel) check_outputs(plan, run);
-    const FileAccess access{plan.document.folder, run.allowed_paths};
+    const FileAccess access{plan.document.folder, run.allowed_paths, run.allow_missing};
     Scene scene = in_stage("loading the scene", [&] { return load_scene(plan.document, access); });
 
     if (plan.pixel) {
@@ -143,7 +143,8 @@ int run_render(const Arguments& arguments) {
     flags.group("Pictures");
     flags.text("-o,--output", "FILE", options.output,
                "Where the picture goes: .png (8-bit sRGB, exposure and tone curve applied) or .pfm (linear "
-               "float radiance); #### stands for the frame number and pads it.",
+               "float radiance); the last #### of the name stands for the frame number and pads it (a "
+               "single # only where the scene has several frames).",
                "the scene's list, else SCENE.png in the current folder");
     run.add_frames_to(flags);
     flags.text("--crop", "X0,Y0,X1,Y1", options.crop,
