@@ -32,6 +32,9 @@ double air_mass(double elevation_deg) {
 /// 0.06, 0.08 and 0.10 for aerosol and ozone.
 constexpr Vec3d clear_air{0.12, 0.19, 0.31};
 
+/// The years of the solar model's dates, is_solar_date().
+constexpr Range solar_years{1800, 2200};
+
 // --- directional
 
 KeyRows<Light> directional_rows() {
@@ -62,7 +65,10 @@ KeyRows<Light> sun_rows() {
     return {
         {number_key("latitude_deg", "North is positive.").in({-90, 90}).need()},
         {number_key("longitude_deg", "East is positive.").in({-180, 180}).need()},
-        {date_time_key("time", "Date and time with offset from UTC, as in 2026-06-21T18:00:00+02:00.")
+        {date_time_key("time",
+                       "Date and time with offset from UTC, as in 2026-06-21T18:00:00+02:00. A "
+                       "leap second (60) is the first second of the next minute.")
+             .in(solar_years)
              .need()
              .animate()},
         {number_key(
