@@ -183,22 +183,44 @@ void check_coordinates(const Builder& b, const SceneTable& table, const Mesh& me
     }
 }
 
-std::size_t flat_triangles(const Mesh& mesh) {
-    return static_cast<std::size_t>(
-        std::count_if(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
-            return is_degenerate(mesh.positions[t.v[0]], mesh.positions[t.v[1]], mesh.positions[t.v[2]]);
-        }));
+/// How a mesh bears the rounding of its corners to floats where it stands.
+struct Rounding {
+    float step = 0;                         ///< of a float at the mesh's farthest coordinate
+    std::size_t collapsed = 0, coarse = 0;  ///< triangles without an area now; with an edge of a few steps
+};
+
+Rounding rounding_of(const Mesh& made, const Mesh& placed) {
+    constexpr float few_steps = 4;
+    float farthest = 0;
+    for (const Vec3f p : placed.positions)
+        farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    Rounding r;
+    r.step = std::nextafter(farthest, 2 * farthest + 1) - farthest;
+    const auto corner = [](const Mesh& mesh, std::size_t t, std::size_t k) {
+        return mesh.positions[mesh.triangles[t].v[k % 3]];
+    };
+    const auto flat = [&](const Mesh& mesh, std::size_t t) {
+        return is_degenerate(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2));
+    };
+    for (std::size_t t = 0; t < placed.triangles.size(); ++t) {
+        bool coarse = false;
+        for (std::size_t k = 0; k < 3; ++k)
+            coarse |= length(corner(placed, t, k + 1) - corner(placed, t, k)) < few_steps * r.step;
+        if (!coarse || flat(made, t)) continue;
+        ++(flat(placed, t) ? r.collapsed : r.coarse);
+    }
+    return r;
 }
 
-/// Far from the origin floats are coarse: details of a few of their steps are lost where the mesh stands.
-void note_collapse(Builder& b, const SceneTable& table, const Mesh& made, const Mesh& placed) {
-    const std::size_t before = flat_triangles(made), after = flat_triangles(placed);
-    // Rounding costs a scan of slivers one or the other wherever it stands.
-    constexpr std::size_t one_in = 1000;
-    if (after <= before + made.triangles.size() / one_in) return;
-    add_note(b, fmt::format("mesh '{}': {} of {} triangles collapse where it stands: single precision is too "
-                            "coarse so far from the origin",
-                            text(table, "id"), after - before, made.triangles.size()));
+/// Far from the origin floats are coarse, and details of a few of their steps are lost or bent.
+void note_rounding(Builder& b, const SceneTable& table, const Mesh& made, const Mesh& placed) {
+    const std::size_t count = made.triangles.size();
+    const Rounding r = rounding_of(made, placed);
+    // A scan has slivers that rounding costs wherever it stands.
+    if (1000 * r.collapsed <= count && 10 * r.coarse <= count) return;
+    add_note(b, fmt::format("mesh '{}': single precision has steps of {:.3g} m where it stands: {} of {} "
+                            "triangles collapse, {} more have edges of a few steps",
+                            text(table, "id"), r.step, r.collapsed, count, r.coarse));
 }
 
 void add_mesh(Builder& b, const SceneTable& table) {
@@ -225,7 +247,7 @@ void add_mesh(Builder& b, const SceneTable& table) {
         }
         transform_mesh(copy, instances.empty() ? own : placement_of(*instances[i]) * own);
         check_coordinates(b, table, copy);
-        note_collapse(b, table, part.mesh, copy);
+        note_rounding(b, table, part.mesh, copy);
         append_mesh(b.scene.mesh, copy);
     }
 }

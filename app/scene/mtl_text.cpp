@@ -23,6 +23,7 @@ namespace {
 struct Numbers {
     Vec3f kd{0.8f, 0.8f, 0.8f}, ks{0, 0, 0}, ke{0, 0, 0};
     std::optional<float> ns, pr, pm;
+    std::optional<double> d, tr;  ///< opacity, and 1 less it
 };
 
 Vec3f parse_colour(std::string_view keyword, std::string_view rest, const TextPlace& place) {
@@ -142,14 +143,15 @@ double loose_number(std::string_view rest, double otherwise, const TextPlace& pl
 }
 
 /// What a statement that we do not obey would change, noted in the entry.
-void note_unread(MtlEntry& entry, std::string_view keyword, std::string_view rest, const TextPlace& place) {
+void note_unread(MtlEntry& entry, Numbers& numbers, std::string_view keyword, std::string_view rest,
+                 const TextPlace& place) {
     // The light of the whole surroundings, and what shades nothing by itself.
     constexpr std::array<std::string_view, 4> of_no_account = {"Ka", "map_Ka", "Ni", "sharpness"};
     if (contains(of_no_account, keyword)) return;
     if (keyword == "d") {
-        entry.transparent |= loose_number(rest, 0, place) < 1;
+        numbers.d = loose_number(rest, 0, place);
     } else if (keyword == "Tr") {
-        entry.transparent |= loose_number(rest, 1, place) > 0;
+        numbers.tr = loose_number(rest, 1, place);
     } else if (keyword == "Tf") {
         for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
             entry.transparent |= loose_number(word, 0, place) < 1;
@@ -210,11 +212,15 @@ std::vector<MtlEntry> parse_mtl_text(std::string_view text, const std::string& f
             if (contains(obeyed, keyword))
                 throw InputError(file, place.line, 0, fmt::format("{} before any newmtl", keyword));
         } else if (!read_statement(entries.back(), numbers.back(), keyword, rest, place)) {
-            note_unread(entries.back(), keyword, rest, place);
+            note_unread(entries.back(), numbers.back(), keyword, rest, place);
         }
     }
-    for (std::size_t i = 0; i < entries.size(); ++i)
-        entries[i].material = to_material(entries[i].name, numbers[i], !entries[i].texture.empty());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        MtlEntry& entry = entries[i];
+        entry.material = to_material(entry.name, numbers[i], !entry.texture.empty());
+        // Some write Tr 1 beside d 1 and mean the same by both.
+        entry.transparent |= numbers[i].d ? *numbers[i].d < 1 : numbers[i].tr.value_or(0) > 0;
+    }
     return entries;
 }
 

@@ -244,7 +244,7 @@ TEST(ObjFile, WhatIsNotReadIsNotedOnceOfAKind) {
             "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\n",
         "newmtl a\nd 0.2\nTr 0.8\nmap_d mask.png\nmap_Bump a.png\nmap_Bump b.png\n"
         "newmtl b\nTf 0.5 1 1\nmap_Bump c.png\nnewmtl c\nillum 4\n"
-        "newmtl d\nd 1\nTr 0\nTf 1 1 1\nillum 2\nKa 1 1 1\nNi 1.5\nnewmtl unused\nd 0.5\nmap_Ks d.png\n");
+        "newmtl d\nd 1\nTr 1\nTf 1 1 1\nillum 2\nKa 1 1 1\nNi 1.5\nnewmtl unused\nd 0.5\nmap_Ks d.png\n");
     EXPECT_EQ(model.notes, (std::vector<std::string>{
                                "text.obj:2: colours of vertices are not read (3 lines)",
                                "text.obj:5: 'l' is not read (2 lines)",
