@@ -106,7 +106,7 @@ TEST_P(ShapeRanges, WhatTheRowsAllowIsMadeOrRefused) {
     std::int64_t left_to_make = 60'000 * times, left_to_inspect = 20'000 * times;
     constexpr std::int64_t few = 3'000, many = 110'000;
     // A town is planned whole, however few its triangles.
-    const std::int64_t cost_of_one = shape.variant.name == "city" ? 20'000 : 0;
+    const std::int64_t cost_of_one = shape.variant.name != "city" ? 0 : slow_tests() ? 100'000 : 20'000;
     Settings source(7);
     int made = 0, inspected = 0, refused = 0;
     for (int i = 0; i < 1000 && left_to_make > 0 && !HasFailure(); ++i) {
