@@ -1,5 +1,7 @@
 #include "app/scene/light_kinds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/scene/build.h"
@@ -157,6 +159,10 @@ void check_spot(const SceneTable& light, const Sources& sources) {
     check_point(light, sources);
     if (vec3(light, "position_m") == vec3(light, "look_at_m")) {
         fail_at(place_of(light, "look_at_m"), sources, "'look_at_m' is the same point as 'position_m'");
+    }
+    if (length(vec3(light, "position_m") - vec3(light, "look_at_m")) < least_distance_m) {
+        fail_at(place_of(light, "look_at_m"), sources,
+                fmt::format("'look_at_m' is nearer to 'position_m' than {:g} m", least_distance_m));
     }
     if (number(light, "inner_cone_deg") > number(light, "outer_cone_deg")) {
         const bool inner = light.find("inner_cone_deg")->place.source >= 0;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 
+#include "app/scene/key_ranges.h"
 #include "app/scene/keyframe_rules.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
@@ -56,7 +57,11 @@ void check_camera(const SceneTable& camera, const Sources& sources) {
     const Vec3d eye = vec3(camera, "eye_m"), target = vec3(camera, "look_at_m"), up = vec3(camera, "up");
     if (eye == target)
         fail_at(place_of(camera, "look_at_m"), sources, "'look_at_m' is the same point as 'eye_m'");
-    if (up == Vec3d{}) fail_at(place_of(camera, "up"), sources, "'up' has no direction");
+    if (length(target - eye) < key_ranges::least_distance_m) {
+        fail_at(place_of(camera, "look_at_m"), sources,
+                fmt::format("'look_at_m' is nearer to 'eye_m' than {:g} m", key_ranges::least_distance_m));
+    }
+    if (length(up) < 1e-9) fail_at(place_of(camera, "up"), sources, "'up' has no direction");
     const Vec3d view = normalize(target - eye), above = normalize(up);
     if (length(cross(view, above)) < 1e-6) {
         const Place up_place = place_of(camera, "up");
