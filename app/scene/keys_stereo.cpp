@@ -29,7 +29,7 @@ KeyRows<StereoRig> rig_rows() {
         {number_key("zero_parallax_m",
                     "Distance along the view axis of what appears on the screen itself; when not given, that "
                     "of the camera's look_at_m.")
-             .in({key_ranges::least_distance_m, key_ranges::far_away_m})
+             .in(key_ranges::distance)
              .animate()},
         key_row(&StereoRig::screen_width_m,
                 number_key("screen_width_m", "Of the screen that the picture fills; for vergence in degrees.")

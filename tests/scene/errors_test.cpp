@@ -78,8 +78,8 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:3:13: 'eye_m' must be finite, not -inf"},
         {"HugeNumber", camera("vfov_deg = 1e400"),
          "s.toml:3:17: in floating-point: '1e400' could not be interpreted as a value"},
-        {"FovZero", camera("vfov_deg = 0"), "s.toml:3:12: 'vfov_deg' must be in (0, 180), not 0"},
-        {"Fov180", camera("vfov_deg = 180.0"), "s.toml:3:12: 'vfov_deg' must be in (0, 180), not 180"},
+        {"FovZero", camera("vfov_deg = 0"), "s.toml:3:12: 'vfov_deg' must be in [1e-06, 180), not 0"},
+        {"Fov180", camera("vfov_deg = 180.0"), "s.toml:3:12: 'vfov_deg' must be in [1e-06, 180), not 180"},
         {"EyeIsTarget", camera("eye_m = [1, 2, 3]\nlook_at_m = [1.0, 2, 3]"),
          "s.toml:4:13: 'look_at_m' is the same point as 'eye_m'"},
         {"UpIsView", camera("eye_m = [0, 9, 0]\nlook_at_m = [0, 0, 0]"),
@@ -276,7 +276,7 @@ TEST(SceneOverride, ErrorsNameTheOverride) {
     EXPECT_EQ(error("camera.vfo_deg=3"),
               "-D camera.vfo_deg=3: unknown key 'vfo_deg' in [camera]; did you mean 'vfov_deg'?");
     EXPECT_EQ(error("camera.vfov_deg=300"),
-              "-D camera.vfov_deg=300: 'vfov_deg' must be in (0, 180), not 300");
+              "-D camera.vfov_deg=300: 'vfov_deg' must be in [1e-06, 180), not 300");
     EXPECT_EQ(error("light.sum.azimuth_deg=3"),
               "-D light.sum.azimuth_deg=3: 'light' has no element 'sum'; did you mean 'sun'?");
     EXPECT_EQ(error("light.1.azimuth_deg=3"), "-D light.1.azimuth_deg=3: 'light' has no element '1'");
