@@ -6,6 +6,7 @@
 
 #include "app/scene/keyframes.h"
 #include "app/scene/scene_file.h"
+#include "app/scene/stereo_settings.h"
 
 namespace obscura {
 namespace {
@@ -165,6 +166,15 @@ TEST(SceneFile, LeapSecondsAreTheNextMinute) {
         "s.toml");
     EXPECT_EQ(date_time(*subtables(subtable(scene.root, "frames"), "light").at(0), "time").year, 2015);
     EXPECT_EQ(date_time(*subtables(subtable(scene.root, "frames"), "light").at(0), "time").month, 7);
+}
+
+TEST(StereoLimits, ComfortKeepsToItsSideOfTheScreen) {
+    // From so near, no eye can turn in far enough.
+    const SceneDocument document = read_scene_text(
+        "format = 1\ncamera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}\n"
+        "stereo = {viewing_distance_m = 1e-20, comfort_far_deg = 0}\n",
+        "s.toml");
+    EXPECT_LE(stereo_settings(document, Scene{}, 1, {}).edit.comfort.farthest_px, 0);
 }
 
 TEST(Keyframes, TimesRunThroughMidnightAndMonths) {

@@ -376,16 +376,6 @@ TEST_F(StereoSettingsOf, NamesMeanObjectsTheirInstancesAndSlots) {
     }
 }
 
-TEST_F(StereoSettingsOf, ComfortKeepsToItsSideOfTheScreen) {
-    // From so near, no eye can turn in far enough; and degrees come back with rounding.
-    for (const char* distance : {"1e-20", "0.001", "2"}) {
-        const StereoSettings s = settings(std::string("[stereo]\nviewing_distance_m = ") + distance +
-                                          "\ncomfort_near_percent = 0\ncomfort_far_deg = 0\n");
-        EXPECT_GE(s.edit.comfort.nearest_px, 0) << distance;
-        EXPECT_LE(s.edit.comfort.farthest_px, 0) << distance;
-    }
-}
-
 TEST_F(StereoSettingsOf, WeightsFadeAndMove) {
     const std::string anchor = "type = \"anchor\"\nobjects = [\"m\"]\nweight = 4\n";
     EXPECT_EQ(settings(edit(anchor)).edits.at(0).weight, 4);
