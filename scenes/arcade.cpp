@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
@@ -136,7 +137,7 @@ void add_arch_trim(Mesh& mesh, const ArcadeParams& p, double x, double radius, d
 
 void add_roundel(Mesh& mesh, const ArcadeParams& p, double x, double y, double radius) {
     const Affine at = translation(x, y, 0.5 * p.wall_m) * rotation_x(90);
-    add_part(mesh, torus(radius, 0.03, 32, 10), at * translation(0, 0.005, 0), trim);
+    add_part(mesh, torus(radius, std::min(0.03, 0.35 * radius), 32, 10), at * translation(0, 0.005, 0), trim);
     add_part(
         mesh,
         lathe({{0, -0.05}, {0.62 * radius, -0.05}, {0.62 * radius, 0.008}, {0.3 * radius, 0.04}, {0, 0.05}},

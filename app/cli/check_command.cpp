@@ -20,6 +20,7 @@
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
 #include "app/scene/stereo_settings.h"
+#include "core/count_text.h"
 #include "raster/view.h"
 
 namespace obscura {
@@ -42,11 +43,12 @@ std::string picture_text(const SceneDocument& document, const Scene& scene) {
     const std::size_t keyframes = subtables(frames, "camera").size() + subtables(frames, "light").size() +
                                   subtables(frames, "optics").size() + subtables(frames, "stereo").size() +
                                   subtables(frames, "stereo_edit").size();
-    std::string out = fmt::format("picture   {} x {} pixels, {} sample{} each, exposure {:+.4g} EV\n",
-                                  scene.render.width, scene.render.height, scene.render.samples,
-                                  scene.render.samples == 1 ? "" : "s", scene.render.exposure_ev);
+    std::string out = fmt::format("picture   {} x {} pixels, {} each, exposure {:+.4g} EV\n",
+                                  scene.render.width, scene.render.height,
+                                  count_text(scene.render.samples, "sample"), scene.render.exposure_ev);
     out += fmt::format("frames    {} ({})", range.count(), text(frames, "range"));
-    if (keyframes > 0) out += fmt::format(", {} keyframes, {}", keyframes, text(frames, "interpolation"));
+    if (keyframes > 0)
+        out += fmt::format(", {}, {}", count_text(keyframes, "keyframe"), text(frames, "interpolation"));
     out += '\n';
     for (const SceneTable* output : subtables(document.root, "output")) {
         out += fmt::format("output    {} -> {}\n", text(*output, "aov"), text(*output, "file"));
@@ -128,15 +130,18 @@ std::string mesh_text(const Scene& scene) {
     const Mesh& mesh = scene.mesh;
     const auto closed = std::count_if(mesh.components.begin(), mesh.components.end(),
                                       [](const Component& c) { return c.closed; });
-    std::string out =
-        fmt::format("meshes    {} triangles, {} vertices, {} objects, {} closed and {} open components\n",
-                    mesh.triangles.size(), mesh.positions.size(), mesh.objects.size(), closed,
-                    static_cast<std::int64_t>(mesh.components.size()) - closed);
+    const auto open = static_cast<std::int64_t>(mesh.components.size()) - closed;
+    std::string out = fmt::format(
+        "meshes    {}, {}, {}, {} closed and {} open {}\n", count_text(mesh.triangles.size(), "triangle"),
+        count_text(mesh.positions.size(), "vertex", "vertices"), count_text(mesh.objects.size(), "object"),
+        closed, open, open == 1 ? "component" : "components");
+    for (const std::string& note : scene.notes)
+        out += fmt::format("note      {}\n", note);
     if (mesh.triangles.empty()) out += "note      there is nothing to see but the sky\n";
     out += fmt::format("materials {}\n", scene.materials.size());
     for (const Texture& t : scene.textures) {
-        out += fmt::format("texture   {}: {} x {} pixels, {} levels\n", t.name, t.levels[0].width,
-                           t.levels[0].height, t.levels.size());
+        out += fmt::format("texture   {}: {} x {} pixels, {}\n", t.name, t.levels[0].width,
+                           t.levels[0].height, count_text(t.levels.size(), "level"));
     }
     return out;
 }
@@ -151,7 +156,7 @@ std::string memory_text(const MemoryEstimate& e, const Scene& scene) {
 
 std::string check_report(const CheckOptions& options) {
     const SceneDocument document = read_scene(options.scene, options.overrides);
-    const FileAccess access{document.folder, options.allowed_paths};
+    const FileAccess access{document.folder, options.allowed_paths, options.allow_missing};
     Scene scene = load_scene(document, access);
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
@@ -179,7 +184,7 @@ int run_check(const Arguments& arguments) {
     SceneFlags scene;
     scene.add_to(flags);
     if (!flags.parse(arguments)) return 0;
-    return check_command({scene.scene, scene.all_overrides(), scene.allowed_paths()});
+    return check_command({scene.scene, scene.all_overrides(), scene.allowed_paths(), scene.allow_missing});
 }
 
 }  // namespace obscura

@@ -14,6 +14,7 @@ struct CheckOptions {
     std::filesystem::path scene;
     std::vector<std::string> overrides;                ///< -D key=value
     std::vector<std::filesystem::path> allowed_paths;  ///< --allow-path DIR
+    bool allow_missing = false;                        ///< --allow-missing
 };
 
 /// The report as text. Throws InputError, LimitError.

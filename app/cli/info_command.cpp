@@ -3,6 +3,7 @@
 #include <fmt/ostream.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "app/cli/flags.h"
@@ -27,10 +28,12 @@ std::size_t faces_with_area(const Mesh& mesh) {
     return static_cast<std::size_t>(std::count(has_area.begin(), has_area.end(), true));
 }
 
-void bounds(const Mesh& mesh, MeshInfo& info) {
-    if (mesh.positions.empty()) return;
-    info.min = info.max = mesh.positions.front();
-    for (const Vec3f& p : mesh.positions) {
+void bounds(const ObjModel& model, MeshInfo& info) {
+    const std::vector<Vec3f>& positions = model.mesh.positions;
+    if (positions.empty()) return;
+    info.min = info.max = to_double(positions.front()) + model.origin;
+    for (const Vec3f& stored : positions) {
+        const Vec3d p = to_double(stored) + model.origin;
         info.min = {std::min(info.min.x, p.x), std::min(info.min.y, p.y), std::min(info.min.z, p.z)};
         info.max = {std::max(info.max.x, p.x), std::max(info.max.y, p.y), std::max(info.max.z, p.z)};
     }
@@ -39,6 +42,19 @@ void bounds(const Mesh& mesh, MeshInfo& info) {
 template <class... Args>
 void row(std::ostream& out, std::string_view label, fmt::format_string<Args...> format, Args&&... args) {
     fmt::print(out, "{:<22}{}\n", label, fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// A corner of the box: six digits of what the mesh measures, and all that stand before them.
+std::string corner_text(Vec3d corner, Vec3d extent) {
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    const auto digits_of = [&](double v) {
+        int digits = 6;
+        for (double beyond = std::fabs(v); largest > 0 && beyond > 10 * largest && digits < 15; beyond /= 10)
+            ++digits;
+        return digits;
+    };
+    return fmt::format("({:.{}g}, {:.{}g}, {:.{}g})", corner.x, digits_of(corner.x), corner.y,
+                       digits_of(corner.y), corner.z, digits_of(corner.z));
 }
 
 void write_table(const InfoOptions& options, const ObjModel& model, const MeshInfo& info, std::ostream& out) {
@@ -58,10 +74,12 @@ void write_table(const InfoOptions& options, const ObjModel& model, const MeshIn
     edges("edges, welded", info.topology.welded);
     row(out, "degenerate triangles", "{}", info.topology.degenerate_triangles);
     row(out, "planar faces", "{}", info.planar_faces);
-    row(out, "bounding box", "({:.6g}, {:.6g}, {:.6g}) / ({:.6g}, {:.6g}, {:.6g})", info.min.x, info.min.y,
-        info.min.z, info.max.x, info.max.y, info.max.z);
+    const Vec3d extent = info.max - info.min;
+    row(out, "bounding box", "{} / {}", corner_text(info.min, extent), corner_text(info.max, extent));
     for (const std::string& message : model.missing)
         fmt::print(out, "missing: {}\n", message);
+    for (const std::string& note : model.notes)
+        fmt::print(out, "note: {}\n", note);
 }
 
 }  // namespace
@@ -82,7 +100,7 @@ MeshInfo inspect(const ObjModel& model) {
     const std::vector<double> volumes = signed_volumes(mesh);
     for (std::size_t c = 0; c < volumes.size(); ++c)
         info.inside_out += mesh.components[c].closed && volumes[c] < 0;
-    bounds(mesh, info);
+    bounds(model, info);
     return info;
 }
 
@@ -94,6 +112,7 @@ int info_command(const InfoOptions& options, std::ostream& out) {
     const FileAccess access{file.parent_path(), options.allowed_paths};
     ObjOptions obj;
     obj.allow_missing = options.allow_missing;
+    obj.textures = false;  // none is read
     const ObjModel model = load_obj(file, access, options.limits, obj);
     write_table(options, model, inspect(model), out);
     return static_cast<int>(ExitCode::ok);
@@ -114,8 +133,9 @@ int run_info(const Arguments& arguments) {
     flags.group("Input");
     flags.list("--allow-path", "DIR", allowed,
                "A folder besides the file's own that material files may lie in; may be given again.");
-    flags.on_off("--allow-missing", options.allow_missing,
-                 "Go on without material files that are not there.");
+    flags.on_off(
+        "--allow-missing", options.allow_missing,
+        "Go on without material files and materials that are not there; without textures it always does.");
     if (!flags.parse(arguments)) return 0;
     options.file = file;
     options.allowed_paths = {allowed.begin(), allowed.end()};

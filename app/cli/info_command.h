@@ -19,7 +19,7 @@ struct MeshInfo {
     std::size_t closed_with_multi_edges = 0;  ///< closed, though some edge carries more than two triangles
     std::size_t inside_out = 0;               ///< closed components of negative volume
     TopologyReport topology;
-    Vec3f min, max;  ///< of the positions in use
+    Vec3d min, max;  ///< of the positions in use, in the file's own frame
 };
 
 MeshInfo inspect(const ObjModel& model);

@@ -149,7 +149,8 @@ int run_render(const Arguments& arguments) {
     flags.group("Pictures");
     flags.text("-o,--output", "FILE", options.output,
                "Where the picture goes: .png (8-bit sRGB, exposure and tone curve applied) or .pfm (linear "
-               "float radiance); #### stands for the frame number and pads it.",
+               "float radiance); the last #### of the name stands for the frame number and pads it (a "
+               "single # only where the scene has several frames).",
                "the scene's list, else SCENE.png in the current folder");
     run.add_frames_to(flags);
     flags.text("--crop", "X0,Y0,X1,Y1", options.crop,

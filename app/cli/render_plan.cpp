@@ -1,6 +1,7 @@
 #include "app/cli/render_plan.h"
 
 #include "app/scene/build.h"
+#include "app/scene/keyframes.h"
 
 namespace obscura {
 namespace {
@@ -26,9 +27,10 @@ RenderPlan plan_render(const RenderOptions& options) {
     const auto [width, height] = std::pair{plan.render.width, plan.render.height};
     if (!options.crop.empty()) plan.frame_options.crop = crop_value("--crop", options.crop, width, height);
     if (!options.pixel.empty()) plan.pixel = pixel_value("--pixel", options.pixel, width, height);
-    plan.outputs = plan_outputs({options.output, options.aovs, options.aov_kind,
-                                 options.run.scene.stem().string(), plan.frames.size() > 1},
-                                outputs_of(plan.document));
+    plan.outputs =
+        plan_outputs({options.output, options.aovs, options.aov_kind, options.run.scene.stem().string(),
+                      plan.frames.size() > 1, scene_frames(plan.document).count() > 1},
+                     outputs_of(plan.document));
     request_channels(plan.outputs, plan.frame_options);
     return plan;
 }

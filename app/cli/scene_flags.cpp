@@ -17,6 +17,8 @@ void SceneFlags::add_to(Flags& flags) {
     flags.whole("--samples", "N", samples, 1, 16, "Samples per pixel: 1, 4 or 16.", "the scene's");
     flags.list("--allow-path", "DIR", allowed,
                "A folder besides the scene's own that its files may lie in; may be given again.");
+    flags.on_off("--allow-missing", allow_missing,
+                 "Go on without materials and textures of mesh files that are not there: grey, and a note.");
     flags.whole("--limit-memory", "MIB", memory_mib, 1, 1'000'000'000,
                 "Refuse to start when the estimate is above this, in MiB.", "the scene's, 4096");
 }
@@ -55,6 +57,7 @@ SceneRun RunFlags::value() const {
     out.scene = scene.scene;
     out.overrides = scene.all_overrides();
     out.allowed_paths = scene.allowed_paths();
+    out.allow_missing = scene.allow_missing;
     out.stats_json = stats;
     return out;
 }

@@ -15,6 +15,7 @@ namespace obscura {
 struct SceneFlags {
     std::string scene, size;
     std::vector<std::string> overrides, allowed;
+    bool allow_missing = false;
     std::int64_t samples = 0, memory_mib = 0;  ///< 0 = what the scene says
 
     /// Adds SCENE and the flags that change what it says.

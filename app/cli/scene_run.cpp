@@ -10,7 +10,7 @@
 namespace obscura {
 
 FileAccess recording_access(const SceneRun& run, const SceneDocument& document) {
-    FileAccess access{document.folder, run.allowed_paths, std::make_shared<ReadFiles>()};
+    FileAccess access{document.folder, run.allowed_paths, run.allow_missing, std::make_shared<ReadFiles>()};
     access.read->add(run.scene);
     return access;
 }

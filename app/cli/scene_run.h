@@ -21,6 +21,7 @@ struct SceneRun {
     std::filesystem::path scene;
     std::vector<std::string> overrides;                ///< "key=value"
     std::vector<std::filesystem::path> allowed_paths;  ///< besides the scene's folder
+    bool allow_missing = false;                        ///< mesh files may lack materials and textures
     std::string frames;                                ///< "1-48x2", "1,5,9-12"; empty: all of the scene
     std::filesystem::path stats_json;                  ///< empty: none; "-": standard output
     bool overwrite = false;

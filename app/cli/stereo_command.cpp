@@ -12,11 +12,13 @@
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/pair/pair.h"
+#include "app/report/output_plan.h"
 #include "app/report/pair_notes.h"
 #include "app/report/pair_page.h"
 #include "app/report/pair_pictures.h"
 #include "app/report/pair_stats.h"
 #include "app/scene/build.h"
+#include "app/scene/keyframes.h"
 #include "app/scene/stereo_settings.h"
 #include "core/stopwatch.h"
 
@@ -59,6 +61,9 @@ StereoPlan plan_stereo(const StereoOptions& options) {
     request.layout = options.layout;
     request.compare = options.compare;
     request.several_frames = several;
+    request.least_run = least_number_run(several || scene_frames(plan.document).count() > 1);
+    // The scene's own name stays as it is.
+    request.output_run = options.output.empty() && !several ? 0 : request.least_run;
     plan.files = plan_stereo_files(request);
     plan.screen_given = gives_screen(root);
     return plan;
@@ -222,6 +227,8 @@ void render_one(Run& run, int number, StereoReport& report) {
                                      [&] { return make_pair(run, settings, run.cache, true); });
     StereoFrameReport& frame = report.frames.emplace_back(frame_report(number, pair, settings));
     const FrameStats& shared = pair.eyes.shared;
+    if (number == run.plan.frames.front())
+        frame.notes.insert(frame.notes.begin(), run.scene.notes.begin(), run.scene.notes.end());
     frame.notes.insert(frame.notes.end(), shared.notices.begin(), shared.notices.end());
     in_stage(fmt::format("writing frame {}", number), [&] {
         write_layout(run, "", pair, frame);

@@ -24,7 +24,7 @@ std::string with_role(const std::string& output, const std::string& role) {
 }
 
 void check_frame_number(const std::string& pattern, bool several_frames) {
-    if (!several_frames || pattern.find('#') != std::string::npos) return;
+    if (!several_frames || has_frame_number(pattern)) return;
     throw UsageError(
         fmt::format("'{}': several frames need #### in the name, for the frame number", pattern));
 }
@@ -59,7 +59,7 @@ std::vector<StereoFile> plan_stereo_files(const StereoFileRequest& request) {
     std::vector<StereoFile> files;
     const auto add_layout = [&](const char* role) {
         for (const std::string& r : layout_roles(role, request.layout))
-            files.push_back({r, with_role(request.output, r)});
+            files.push_back({r, with_role(request.output, r), request.output_run});
     };
     add_layout("");
     if (request.compare.warp) add_layout("warp");
@@ -68,13 +68,13 @@ std::vector<StereoFile> plan_stereo_files(const StereoFileRequest& request) {
     if (!request.maps.empty()) {
         check_frame_number(request.maps, request.several_frames);
         for (const std::string& role : map_roles())
-            files.push_back({"map." + role, request.maps + "." + role});
+            files.push_back({"map." + role, request.maps + "." + role, request.least_run});
     }
     if (!request.report.empty()) {
         if (fs::path(request.report).extension() != ".html")
             throw UsageError(fmt::format("'{}': reports end in .html", request.report));
         check_frame_number(request.report, request.several_frames);
-        files.push_back({"report", request.report});
+        files.push_back({"report", request.report, request.least_run});
     }
     std::set<fs::path> names;
     for (const StereoFile& file : files) {
@@ -88,7 +88,7 @@ fs::path stereo_path(const std::vector<StereoFile>& files, const std::string& ro
     const auto file =
         std::find_if(files.begin(), files.end(), [&](const StereoFile& f) { return f.role == role; });
     CHECK(file != files.end(), role);
-    return output_path({Aov::beauty, file->pattern, FileKind::png}, frame);
+    return output_path({Aov::beauty, file->pattern, FileKind::png, file->least_run}, frame);
 }
 
 }  // namespace obscura

@@ -20,13 +20,16 @@ StereoCompare compare_value(const std::string& flag, const std::string& text);
 
 struct StereoFile {
     std::string role, pattern;
+    int least_run = 1;  ///< of # that is the frame number, as PlannedOutput has it
 };
 
 struct StereoFileRequest {
     std::string output, maps, report;  ///< -o, --maps, --report
     StereoLayout layout = StereoLayout::side_by_side;
     StereoCompare compare;
-    bool several_frames = false;
+    bool several_frames = false;  ///< are rendered
+    // The shortest runs of # that are the frame number, as PlannedOutput has it; of -o, and of the others.
+    int output_run = 1, least_run = 1;
 };
 
 /// Every file of a frame: NAME.png, or NAME.left.png and NAME.right.png; NAME.warp.png and so on;

@@ -111,15 +111,15 @@ TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
 }
 
 std::vector<ShadowTree> load_shadow_cache(const fs::path& file, const TreeFileKey& key, std::string& notice) {
-    const auto read = [&] {
-        try {
-            return read_cached_trees(file, key);
-        } catch (const InputError& error) {
-            throw InputError(error.file, error.message + "; when it is deleted, a new one is made");
-        }
-    };
-    CachedTrees cached = read();
     notice.clear();
+    CachedTrees cached;
+    try {
+        cached = read_cached_trees(file, key);
+    } catch (const InputError& error) {
+        // Nothing is lost with it: all that stands in it is made from the scene.
+        notice = fmt::format("{} is damaged ({}); it is made again", file.string(), error.message);
+        return {};
+    }
     switch (cached.state) {
         case CacheState::usable:
             return std::move(cached.trees);

@@ -29,7 +29,7 @@ TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
                        const std::vector<LightView>& views);
 
 /// Trees of an earlier run, or none. `notice`: why a file that is there could not be used, empty otherwise.
-/// Throws InputError when the file is broken: cut short, altered, not of this kind.
+/// A file that is broken (cut short, altered, not of this kind) or cannot be read is such a file, too.
 std::vector<ShadowTree> load_shadow_cache(const std::filesystem::path& file, const TreeFileKey& key,
                                           std::string& notice);
 

@@ -49,8 +49,8 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
     return stats;
 }
 
-/// Reads the shadow from its file. False when there is none that serves. A file with the right key that holds
-/// something else than trees of these views is broken (InputError).
+/// Reads the shadow from its file. False when there is none that serves; a notice says why. A file with the
+/// right key that holds something else than trees of these views is damaged, too.
 bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey& key,
           const std::vector<LightView>& views, LightShadow& shadow) {
     std::string notice;
@@ -59,9 +59,9 @@ bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey
     if (!shadow.trees.empty() &&
         !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {
         shadow.trees.clear();
-        throw InputError(file.string(),
-                         "holds shadow trees of other views than its key says; delete it to have it "
-                         "made again");
+        notice = fmt::format(
+            "{} is damaged (it holds shadow trees of other views than its key says); it is made again",
+            file.string());
     }
     if (!notice.empty()) work.stats.notices.push_back(notice);
     if (shadow.trees.empty()) return false;

@@ -36,12 +36,14 @@ FileKind file_kind(const std::string& file) {
 std::vector<PlannedOutput> plan_outputs(const OutputRequest& request,
                                         const std::vector<Output>& scene_outputs) {
     std::vector<PlannedOutput> plan;
+    int run = least_number_run(request.scene_has_several_frames || request.several_frames);
     if (!request.output.empty()) {
         plan.push_back({Aov::beauty, request.output, file_kind(request.output)});
     } else if (!scene_outputs.empty()) {
         for (const Output& output : scene_outputs)
             plan.push_back({output.aov, output.file, file_kind(output.file)});
     } else {
+        if (!request.several_frames) run = 0;  // the scene's own name, as it is
         plan.push_back({Aov::beauty, request.scene_stem + (request.several_frames ? ".####.png" : ".png"),
                         FileKind::png});
     }
@@ -50,8 +52,9 @@ std::vector<PlannedOutput> plan_outputs(const OutputRequest& request,
         plan.push_back({aov, beside(first, aov, request.aov_kind), request.aov_kind});
 
     std::set<fs::path> names;
-    for (const PlannedOutput& output : plan) {
-        if (request.several_frames && output.pattern.find('#') == std::string::npos) {
+    for (PlannedOutput& output : plan) {
+        output.least_run = run;
+        if (request.several_frames && !has_frame_number(output.pattern)) {
             throw UsageError(fmt::format("'{}': several frames need #### in the name, for the frame number",
                                          output.pattern));
         }
@@ -62,19 +65,19 @@ std::vector<PlannedOutput> plan_outputs(const OutputRequest& request,
     return plan;
 }
 
+bool has_frame_number(const std::string& pattern) {
+    return fs::path(pattern).filename().string().find('#') != std::string::npos;
+}
+
 fs::path output_path(const PlannedOutput& output, int frame) {
-    std::string name;
-    const std::string& pattern = output.pattern;
-    for (std::size_t i = 0; i < pattern.size();) {
-        const std::size_t end = std::min(pattern.find_first_not_of('#', i), pattern.size());
-        if (end > i) {
-            name += fmt::format("{:0{}}", frame, end - i);
-        } else {
-            name += pattern[i];
-        }
-        i = std::max(end, i + 1);
-    }
-    return name;
+    const fs::path path(output.pattern);
+    std::string name = path.filename().string();
+    const std::size_t last = name.rfind('#');
+    if (last == std::string::npos || output.least_run == 0) return path;
+    const std::size_t before = name.find_last_not_of('#', last);
+    const std::size_t first = before == std::string::npos ? 0 : before + 1, run = last + 1 - first;
+    if (run < static_cast<std::size_t>(output.least_run)) return path;
+    return path.parent_path() / name.replace(first, run, fmt::format("{:0{}}", frame, run));
 }
 
 }  // namespace obscura

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/frame/shadow_text.h"
+#include "core/count_text.h"
 #include "core/edges.h"
 
 namespace obscura {
@@ -19,9 +20,9 @@ std::string stages_text(const FrameReport& report) {
     std::string out = fmt::format(
         "  surfaces {:.3f} s, setup {:.3f} s, shadow maps {:.3f} s ({}), tiles {:.3f} s, files {:.3f} s\n",
         s.surface_s, s.setup_s, s.shadow_s, s.shadow_maps, s.tiles_s, report.write_s);
-    out += fmt::format(
-        "  {} triangles, {} in view, {} samples, {} of them on a surface; {} MiB at most so far\n",
-        s.triangles, s.records, s.samples, s.covered_samples, peak_resident_bytes() >> 20);
+    out += fmt::format("  {}, {} in view, {}, {} of them on a surface; {} MiB at most so far\n",
+                       count_text(s.triangles, "triangle"), s.records, count_text(s.samples, "sample"),
+                       s.covered_samples, peak_resident_bytes() >> 20);
     if (s.resolution_s + s.needed_s > 0.0005) {
         out += fmt::format("  of shadow maps: resolutions {:.3f} s, finding what is looked up {:.3f} s\n",
                            s.resolution_s, s.needed_s);
@@ -35,9 +36,8 @@ std::string glare_text(const GlareStats& s) {
     std::string out =
         fmt::format("  glare {:.3f} s, of it patterns {:.3f} s: {}\n", s.total_s, s.psf_s, s.reason);
     if (s.sources == 0) return out;
-    return out +
-           fmt::format("  {:.2f} % of their light left its pixel, {:.2f} % the picture; {} wavelengths\n",
-                       100 * s.spread, 100 * s.lost, s.wavelengths);
+    return out + fmt::format("  {:.2f} % of their light left its pixel, {:.2f} % the picture; {}\n",
+                             100 * s.spread, 100 * s.lost, count_text(s.wavelengths, "wavelength"));
 }
 
 }  // namespace
@@ -45,9 +45,9 @@ std::string glare_text(const GlareStats& s) {
 std::string plan_text(const RenderReport& report, std::size_t frames) {
     const RunReport& run = report.run;
     const MemoryEstimate& m = report.memory;
-    return fmt::format("{}: {} frame{}, {} x {} pixels, {} sample{} each, {} on {} threads\n", run.scene,
-                       frames, frames == 1 ? "" : "s", run.width, run.height, run.samples,
-                       run.samples == 1 ? "" : "s", isa_name(run.exec.isa), thread_count(run.exec)) +
+    return fmt::format("{}: {}, {} x {} pixels, {} each, {} on {}\n", run.scene, count_text(frames, "frame"),
+                       run.width, run.height, count_text(run.samples, "sample"), isa_name(run.exec.isa),
+                       count_text(thread_count(run.exec), "thread")) +
            fmt::format(
                "loaded in {:.2f} s; memory about {:.0f} of {} MiB: meshes {:.0f}, textures {:.0f}, "
                "shadow maps {:.0f}, frame {:.0f}\n",
@@ -71,7 +71,7 @@ std::string frame_text(const FrameReport& report, int verbosity) {
 }
 
 std::vector<std::string> scene_notes(const Scene& scene, int frame) {
-    std::vector<std::string> notes;
+    std::vector<std::string> notes = scene.notes;
     const Mesh& mesh = scene.mesh;
     const bool solid = std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
         return !is_degenerate(mesh.positions[t.v[0]], mesh.positions[t.v[1]], mesh.positions[t.v[2]]);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -14,6 +15,7 @@
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
 #include "app/scene/validate.h"
+#include "core/edges.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "core/texture.h"
@@ -35,6 +37,12 @@ struct Builder {
     std::int64_t texture_memory = 0;
 };
 
+/// A note, once.
+void add_note(Builder& b, const std::string& note) {
+    std::vector<std::string>& notes = b.scene.notes;
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+}
+
 /// Index of a texture, which is decoded when it is met for the first time.
 std::int32_t texture_index(Builder& b, const std::filesystem::path& file, const std::string& shown_name) {
     if (const auto known = b.textures.find(file); known != b.textures.end()) return known->second;
@@ -44,6 +52,8 @@ std::int32_t texture_index(Builder& b, const std::filesystem::path& file, const 
     // A pixel has 4 bytes in the file's image, and 16 as linear floats with their mip chain.
     limits.max_bytes = ((b.limits.texture_mib << 20) - b.texture_memory) / 4;
     const Image<Rgba8> image = decode_png(bytes, shown_name, limits);
+    if (std::any_of(image.pixels.begin(), image.pixels.end(), [](Rgba8 p) { return p.a < 255; }))
+        add_note(b, fmt::format("texture {} is transparent in places; drawn opaque", shown_name));
     b.texture_memory += texture_bytes(image.width, image.height);
     b.scene.textures.push_back(make_texture(shown_name, image.view()));
     const auto index = static_cast<std::int32_t>(b.scene.textures.size()) - 1;
@@ -86,27 +96,35 @@ void add_materials(Builder& b) {
 struct Part {
     Mesh mesh;
     std::vector<Material> materials;
+    Vec3d origin;  ///< what `mesh` stands about
 };
 
 Part load_part(Builder& b, const SceneTable& table) {
     return load_named(b, table, "file", [&](const std::filesystem::path& path) {
         ObjOptions options;
         options.crease_angle_deg = number(table, "crease_angle_deg");
+        options.allow_missing = b.access.allow_missing;
+        options.materials = !table.has("material");
+        for (const SceneEntry& entry : subtable(table, "materials").entries)
+            options.replaced.push_back(entry.key);
         ObjModel model = load_obj(path, b.access, b.limits, options);
-        const bool own_materials = !table.has("material");
+        for (const auto* words : {&model.missing, &model.notes}) {
+            for (const std::string& word : *words)
+                add_note(b, word);
+        }
         for (Material& material : model.materials) {
-            if (material.texture < 0 || !own_materials) continue;
+            if (material.texture < 0) continue;
             const std::string& file = model.texture_files.at(static_cast<std::size_t>(material.texture));
             material.texture = texture_index(b, file, std::filesystem::path(file).filename().string());
         }
-        return Part{std::move(model.mesh), std::move(model.materials)};
+        return Part{std::move(model.mesh), std::move(model.materials), model.origin};
     });
 }
 
 Part make_part(const SceneTable& table) {
     GeneratedModel model = find_shape(text(table, "shape"))->make(table);
     analyse_topology(model.mesh);
-    return {std::move(model.mesh), std::move(model.materials)};
+    return {std::move(model.mesh), std::move(model.materials), {}};
 }
 
 /// Points the part's triangles at the scene's materials: the mesh's `material` for all, else
@@ -165,6 +183,46 @@ void check_coordinates(const Builder& b, const SceneTable& table, const Mesh& me
     }
 }
 
+/// How a mesh bears the rounding of its corners to floats where it stands.
+struct Rounding {
+    float step = 0;                         ///< of a float at the mesh's farthest coordinate
+    std::size_t collapsed = 0, coarse = 0;  ///< triangles without an area now; with an edge of a few steps
+};
+
+Rounding rounding_of(const Mesh& made, const Mesh& placed) {
+    constexpr float few_steps = 4;
+    float farthest = 0;
+    for (const Vec3f p : placed.positions)
+        farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    Rounding r;
+    r.step = std::nextafter(farthest, 2 * farthest + 1) - farthest;
+    const auto corner = [](const Mesh& mesh, std::size_t t, std::size_t k) {
+        return mesh.positions[mesh.triangles[t].v[k % 3]];
+    };
+    const auto flat = [&](const Mesh& mesh, std::size_t t) {
+        return is_degenerate(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2));
+    };
+    for (std::size_t t = 0; t < placed.triangles.size(); ++t) {
+        bool coarse = false;
+        for (std::size_t k = 0; k < 3; ++k)
+            coarse |= length(corner(placed, t, k + 1) - corner(placed, t, k)) < few_steps * r.step;
+        if (!coarse || flat(made, t)) continue;
+        ++(flat(placed, t) ? r.collapsed : r.coarse);
+    }
+    return r;
+}
+
+/// Far from the origin floats are coarse, and details of a few of their steps are lost or bent.
+void note_rounding(Builder& b, const SceneTable& table, const Mesh& made, const Mesh& placed) {
+    const std::size_t count = made.triangles.size();
+    const Rounding r = rounding_of(made, placed);
+    // A scan has slivers that rounding costs wherever it stands.
+    if (1000 * r.collapsed <= count && 10 * r.coarse <= count) return;
+    add_note(b, fmt::format("mesh '{}': single precision has steps of {:.3g} m where it stands: {} of {} "
+                            "triangles collapse, {} more have edges of a few steps",
+                            text(table, "id"), r.step, r.collapsed, count, r.coarse));
+}
+
 void add_mesh(Builder& b, const SceneTable& table) {
     Part part = text(table, "shape") == "file" ? load_part(b, table) : make_part(table);
     const std::vector<const SceneTable*> instances = subtables(table, "instance");
@@ -180,7 +238,7 @@ void add_mesh(Builder& b, const SceneTable& table) {
     name_objects(table, part.mesh);
     if (boolean(table, "flip_faces")) flip_faces(part.mesh);
 
-    const Affine own = placement_of(table);
+    const Affine own = placement_of(table) * translation(part.origin);
     for (std::size_t i = 0; i < copies; ++i) {
         Mesh copy = part.mesh;
         if (!instances.empty()) {
@@ -189,6 +247,7 @@ void add_mesh(Builder& b, const SceneTable& table) {
         }
         transform_mesh(copy, instances.empty() ? own : placement_of(*instances[i]) * own);
         check_coordinates(b, table, copy);
+        note_rounding(b, table, part.mesh, copy);
         append_mesh(b.scene.mesh, copy);
     }
 }

@@ -40,6 +40,13 @@ bool inside(const fs::path& path, const fs::path& folder) {
     return end == base.end();
 }
 
+/// A folder as a message names it: a relative one says nothing to who reads the message elsewhere.
+std::string folder_text(const fs::path& folder) {
+    std::error_code error;
+    const fs::path real = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error);
+    return error ? "the scene's folder" : real.string();
+}
+
 const char* kind_of(mode_t mode) {
     if (S_ISDIR(mode)) return "a folder";
     if (S_ISFIFO(mode)) return "a FIFO";
@@ -83,8 +90,9 @@ std::string read_opened(const fs::path& file, int flags, std::int64_t max_bytes)
 
 }  // namespace
 
-fs::path resolve_beside(const FileAccess& access, const fs::path& folder, std::string_view relative) {
-    const std::string name(relative);
+namespace {
+
+fs::path resolve_as_written(const FileAccess& access, const fs::path& folder, const std::string& name) {
     if (name.empty()) throw InputError("", "empty file name");
     if (name.find('\0') != std::string::npos) throw InputError("", "file name contains a NUL byte");
 
@@ -97,12 +105,25 @@ fs::path resolve_beside(const FileAccess& access, const fs::path& folder, std::s
                                                  [&](const fs::path& a) { return inside(path, a); });
     if (!allowed) {
         throw InputError(name, fmt::format("leads outside {} (--allow-path DIR permits a further folder)",
-                                           access.root.empty() ? "." : access.root.string()));
+                                           folder_text(access.root)));
     }
     struct stat status = {};
     if (::stat(path.c_str(), &status) != 0) fail(name, "cannot open", errno);
     if (access.read) access.read->add(path);
     return path;
+}
+
+}  // namespace
+
+fs::path resolve_beside(const FileAccess& access, const fs::path& folder, std::string_view relative) {
+    std::string name(relative);
+    try {
+        return resolve_as_written(access, folder, name);
+    } catch (const MissingFile&) {
+        if (name.find('\\') == std::string::npos) throw;
+        std::replace(name.begin(), name.end(), '\\', '/');
+        return resolve_as_written(access, folder, name);
+    }
 }
 
 fs::path resolve_input(const FileAccess& access, std::string_view relative) {

@@ -18,6 +18,7 @@ namespace obscura {
 struct FileAccess {
     std::filesystem::path root;
     std::vector<std::filesystem::path> allowed;  ///< further folders (--allow-path)
+    bool allow_missing = false;  ///< mesh files go on without materials and textures that are not there
     std::shared_ptr<ReadFiles> read = nullptr;   ///< takes down every file that is found, if anybody asks
 };
 
@@ -28,8 +29,8 @@ struct MissingFile : InputError {
 
 /// The file that `relative` means, as a canonical path. What counts is where the path leads after "..",
 /// symbolic links and all: it must end inside the root or an allowed folder, so an absolute path is fine
-/// there and refused elsewhere. Throws InputError (file = `relative`) when it leads outside or cannot be
-/// followed, MissingFile when nothing is there.
+/// there and refused elsewhere. Where nothing has that name, a \ in it stands for /. Throws InputError (file
+/// = `relative`) when it leads outside or cannot be followed, MissingFile when nothing is there.
 std::filesystem::path resolve_input(const FileAccess& access, std::string_view relative);
 
 /// As above, relative to `folder`: for files that name files beside them.

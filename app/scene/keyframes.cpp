@@ -30,9 +30,16 @@ std::vector<double> components(const SceneValue& value) {
     return all;
 }
 
+/// The date of a number of seconds; a smooth curve through the first and last years may swing beyond them.
+DateTime date_within(const Range& years, double seconds, int offset_minutes) {
+    const DateTime first{static_cast<int>(years.lo), 1, 1, 0, 0, 0, 0, true, offset_minutes};
+    const DateTime last{static_cast<int>(years.hi), 12, 31, 23, 59, 59, 0, true, offset_minutes};
+    return from_epoch_seconds(std::clamp(seconds, epoch_seconds(first), epoch_seconds(last)), offset_minutes);
+}
+
 SceneValue from_components(const KeySpec& key, const std::vector<double>& v, const SceneValue& like) {
     if (key.type == KeyType::date_time) {
-        return {from_epoch_seconds(v[0], std::get<DateTime>(like.data).offset_minutes), like.place};
+        return {date_within(key.range, v[0], std::get<DateTime>(like.data).offset_minutes), like.place};
     }
     const auto clamped = [&](double x) {
         // An open end (fov 0) is approached, not reached.

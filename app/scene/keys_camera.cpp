@@ -25,10 +25,13 @@ const KeyRows<Camera>& camera_rows() {
         key_row(&Camera::up, vec3_key("up", "Direction that is up in the picture; not the viewing direction.")
                                  .in(anywhere)
                                  .animate()),
-        key_row(&Camera::near_m, number_key("near_m", "Nothing nearer than this is seen.").in(positive)),
+        key_row(&Camera::near_m, number_key("near_m", "Nothing nearer than this is seen.").in(distance)),
     };
     return rows;
 }
+
+/// From a micrometre to a kilometre.
+constexpr Range lens_mm{1e-3, 1e6};
 
 /// A focal length and a sensor's height stand for the angle of view.
 const KeyRows<Camera>& perspective_rows() {
@@ -36,13 +39,11 @@ const KeyRows<Camera>& perspective_rows() {
         key_row_if_given(
             &Camera::vfov_deg,
             number_key("vfov_deg", "Full vertical angle of view; 40 when no focal length is given either.")
-                .in({0, 180, true, true})
+                .in({1e-6, 180, false, true})
                 .animate()),
-        {number_key("focal_length_mm", "Instead of vfov_deg: focal length of a lens.")
-             .in({0, 1e6, true})
-             .animate()},
+        {number_key("focal_length_mm", "Instead of vfov_deg: focal length of a lens.").in(lens_mm).animate()},
         {number_key("sensor_height_mm", "Height of the sensor behind that lens; 24 when not given.")
-             .in({0, 1e6, true})},
+             .in(lens_mm)},
     };
     return rows;
 }
@@ -50,7 +51,7 @@ const KeyRows<Camera>& perspective_rows() {
 const KeyRows<Camera>& orthographic_rows() {
     static const KeyRows<Camera> rows{
         key_row(&Camera::height_m,
-                number_key("height_m", "World height of the picture.").in(positive).need().animate()),
+                number_key("height_m", "World height of the picture.").in(distance).need().animate()),
     };
     return rows;
 }

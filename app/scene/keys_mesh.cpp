@@ -17,10 +17,12 @@ struct Placement {
 
 const KeyRows<Placement>& placement_rows() {
     static const KeyRows<Placement> rows{
-        key_row(
-            &Placement::scale,
-            vec3_or_number_key("scale", "Scale along x, y, z, first; a negative one mirrors, 0 is an error.")
-                .in({-1e6, 1e6})),
+        key_row(&Placement::scale,
+                vec3_or_number_key(
+                    "scale",
+                    "Scale along x, y, z, first; a negative one mirrors, 0 and what is nearer to it "
+                    "than 1e-9 are errors.")
+                    .in({-1e6, 1e6})),
         key_row(&Placement::rotate_deg,
                 vec3_key("rotate_deg",
                          "Then turned about x, then y, then z, counter-clockwise seen from the axis' tip.")

@@ -42,7 +42,9 @@ const KeyRows<Output>& output_rows() {
             file_key(
                 "file",
                 "Name ending in .png (8-bit sRGB) or .pfm (linear float), relative to the current folder and "
-                "inside it; #### stands for the frame number, padded to as many digits.")
+                "inside it; the last #### of the name stands for the frame number, padded to as many digits. "
+                "A "
+                "single # does only where the scene has several frames, and none does in a folder's name.")
                 .need()),
     };
     return rows;

@@ -19,7 +19,8 @@ constexpr Word<RemapKind> remap_words[] = {{"linear", RemapKind::linear},
 
 constexpr Range anywhere{-1e9, 1e9};
 constexpr Range weight_range{0, 1e6};
-constexpr Range positive_weight{0, 1e6, true};
+// What floats hold beside the other weights.
+constexpr Range positive_weight{1e-9, 1e6};
 
 KeyRows<StereoRig> rig_rows() {
     return {
@@ -28,7 +29,7 @@ KeyRows<StereoRig> rig_rows() {
         {number_key("zero_parallax_m",
                     "Distance along the view axis of what appears on the screen itself; when not given, that "
                     "of the camera's look_at_m.")
-             .in({0, 1e9, true})
+             .in(key_ranges::distance)
              .animate()},
         key_row(&StereoRig::screen_width_m,
                 number_key("screen_width_m", "Of the screen that the picture fills; for vergence in degrees.")
@@ -79,9 +80,9 @@ KeyRows<EditParams> energy_rows() {
                 number_key("anchor_weight", "Of anchors, times their own.").in(weight_range)),
         key_row(&EditParams::match_weight,
                 number_key("match_weight", "Of matched points, times their own.").in(weight_range)),
-        key_row(&EditParams::epsilon,
-                number_key("regularization", "Pull of every pixel to its unedited disparity.")
-                    .in({0, 1e6, true})),
+        key_row(
+            &EditParams::epsilon,
+            number_key("regularization", "Pull of every pixel to its unedited disparity.").in({1e-12, 1e6})),
     };
 }
 

@@ -1,5 +1,7 @@
 #include "app/scene/light_kinds.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/scene/build.h"
@@ -32,6 +34,9 @@ double air_mass(double elevation_deg) {
 /// 0.06, 0.08 and 0.10 for aerosol and ozone.
 constexpr Vec3d clear_air{0.12, 0.19, 0.31};
 
+/// The years of the solar model's dates, is_solar_date().
+constexpr Range solar_years{1800, 2200};
+
 // --- directional
 
 KeyRows<Light> directional_rows() {
@@ -62,7 +67,10 @@ KeyRows<Light> sun_rows() {
     return {
         {number_key("latitude_deg", "North is positive.").in({-90, 90}).need()},
         {number_key("longitude_deg", "East is positive.").in({-180, 180}).need()},
-        {date_time_key("time", "Date and time with offset from UTC, as in 2026-06-21T18:00:00+02:00.")
+        {date_time_key("time",
+                       "Date and time with offset from UTC, as in 2026-06-21T18:00:00+02:00. A "
+                       "leap second (60) is the first second of the next minute.")
+             .in(solar_years)
              .need()
              .animate()},
         {number_key(
@@ -151,6 +159,10 @@ void check_spot(const SceneTable& light, const Sources& sources) {
     check_point(light, sources);
     if (vec3(light, "position_m") == vec3(light, "look_at_m")) {
         fail_at(place_of(light, "look_at_m"), sources, "'look_at_m' is the same point as 'position_m'");
+    }
+    if (length(vec3(light, "position_m") - vec3(light, "look_at_m")) < least_distance_m) {
+        fail_at(place_of(light, "look_at_m"), sources,
+                fmt::format("'look_at_m' is nearer to 'position_m' than {:g} m", least_distance_m));
     }
     if (number(light, "inner_cone_deg") > number(light, "outer_cone_deg")) {
         const bool inner = light.find("inner_cone_deg")->place.source >= 0;

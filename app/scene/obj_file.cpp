@@ -1,19 +1,12 @@
-// tinyobjloader 2.0rc10 reads OBJ trustingly: indices out of range, words instead of numbers, polygons of
-// more than 255 corners and paths anywhere pass it without an error, and its numbers go through libm's pow,
-// whose bits vary by CPU. So the text is read by app/obj_text and, for the few MTL statements that a Material
-// can hold, here; the library is left with what it does well, the option syntax of texture statements.
 #include "app/scene/obj_file.h"
 
 #include <fmt/format.h>
-#include <tiny_obj_loader.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 #include <map>
-#include <optional>
 
+#include "app/scene/mtl_text.h"
 #include "app/scene/obj_mesh.h"
 #include "app/scene/obj_text.h"
 #include "app/scene/text_lines.h"
@@ -24,168 +17,144 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What one newmtl block says, with the lines for messages.
-struct MtlEntry {
-    std::string name;
-    Vec3f kd{0.8f, 0.8f, 0.8f}, ks{0, 0, 0}, ke{0, 0, 0};
-    std::optional<float> ns, pr, pm;
-    std::string texture;
-    std::string file;
-    int texture_line = 0;
-};
-
-Vec3f parse_colour(std::string_view keyword, std::string_view rest, const TextPlace& place) {
-    std::array<float, 3> c = {};
-    std::size_t count = 0;
-    for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest), ++count) {
-        if (count == 0 && (word == "spectral" || word == "xyz")) {
-            throw InputError(place.file, place.line, 0,
-                             fmt::format("{} {} is not supported, only RGB", keyword, word));
-        }
-        const float value = parse_float(word, place);
-        if (value < 0)
-            throw InputError(place.file, place.line, 0, fmt::format("{} must not be negative", keyword));
-        if (count < 3) c[count] = value;
-    }
-    // One number stands for all three channels.
-    if (count == 1) return {c[0], c[0], c[0]};
-    if (count != 3) {
-        throw InputError(place.file, place.line, 0,
-                         fmt::format("{} takes 3 numbers, found {}", keyword, count));
-    }
-    return {c[0], c[1], c[2]};
-}
-
-float parse_scalar(std::string_view keyword, std::string_view rest, float largest, const TextPlace& place) {
-    const float value = parse_float(take_word(rest), place);
-    if (!(value >= 0 && value <= largest)) {
-        throw InputError(place.file, place.line, 0,
-                         fmt::format("{} must be in [0, {}], not {}", keyword, largest, value));
-    }
-    return value;
-}
-
-std::string parse_texture(std::string_view rest, const TextPlace& place) {
-    const auto fail = [&](const std::string& message) {
-        throw InputError(place.file, place.line, 0, message);
-    };
-    std::string name;
-    tinyobj::texture_option_t options = {};
-    options.scale[0] = options.scale[1] = options.scale[2] = 1;
-    options.contrast = 1;
-    const std::string statement(trimmed(rest));
-    if (!tinyobj::ParseTextureNameAndOption(&name, &options, statement.c_str()) || trimmed(name).empty()) {
-        fail("map_Kd names no file (-o, -s and -t take three numbers each)");
-    }
-    const auto all = [](const float(&v)[3], float value) {
-        return v[0] == value && v[1] == value && v[2] == value;
-    };
-    if (!all(options.scale, 1) || !all(options.origin_offset, 0) || !all(options.turbulence, 0) ||
-        options.clamp || options.brightness != 0 || options.contrast != 1) {
-        fail("map_Kd: scaling, moving, clamping or recolouring a texture is not supported");
-    }
-    std::string file(trimmed(name));
-    std::replace(file.begin(), file.end(), '\\', '/');
-    return file;
-}
-
-std::vector<MtlEntry> parse_mtl(std::string_view text, const std::string& file) {
-    std::vector<MtlEntry> entries;
-    LineReader lines(text);
-    constexpr std::array<std::string_view, 7> known = {"Kd", "Ks", "Ke", "Ns", "Pr", "Pm", "map_Kd"};
-    while (lines.next()) {
-        std::string_view rest = lines.line();
-        const std::string_view keyword = take_word(rest);
-        const TextPlace place{file, lines.number()};
-        if (keyword == "newmtl") {
-            const std::string name(trimmed(rest));
-            if (name.empty()) throw InputError(file, place.line, 0, "newmtl without a name");
-            entries.emplace_back();
-            entries.back().name = name;
-            entries.back().file = file;
-            continue;
-        }
-        if (std::find(known.begin(), known.end(), keyword) == known.end()) continue;
-        if (entries.empty())
-            throw InputError(file, place.line, 0, fmt::format("{} before any newmtl", keyword));
-        MtlEntry& entry = entries.back();
-        if (keyword == "Kd") entry.kd = parse_colour(keyword, rest, place);
-        if (keyword == "Ks") entry.ks = parse_colour(keyword, rest, place);
-        if (keyword == "Ke") entry.ke = parse_colour(keyword, rest, place);
-        if (keyword == "Ns") entry.ns = parse_scalar(keyword, rest, 1e6f, place);
-        if (keyword == "Pr") entry.pr = parse_scalar(keyword, rest, 1.0f, place);
-        if (keyword == "Pm") entry.pm = parse_scalar(keyword, rest, 1.0f, place);
-        if (keyword == "map_Kd") {
-            entry.texture = parse_texture(rest, place);
-            entry.texture_line = place.line;
-        }
-    }
-    return entries;
-}
-
-Vec3f clamped(Vec3f c) {
-    return {std::min(c.x, 1.0f), std::min(c.y, 1.0f), std::min(c.z, 1.0f)};
-}
-bool black(Vec3f c) {
-    return c.x <= 0 && c.y <= 0 && c.z <= 0;
-}
-
-Material to_material(const MtlEntry& entry) {
-    Material m;
-    m.name = entry.name;
-    const bool metal = !entry.pm && black(entry.kd) && !black(entry.ks) && entry.texture.empty();
-    m.base_color = clamped(metal ? entry.ks : entry.kd);
-    m.metallic = entry.pm.value_or(metal ? 1.0f : 0.0f);
-    m.emission = entry.ke;
-    float roughness = 1.0f;
-    if (entry.ns && !black(entry.ks)) roughness = std::sqrt(std::sqrt(2.0f / (*entry.ns + 2.0f)));
-    m.roughness = std::clamp(entry.pr.value_or(roughness), 0.02f, 1.0f);
-    return m;
-}
-
 /// How the files that an OBJ names are reached: from disk, or from memory. Both throw MissingFile.
 struct Surroundings {
     std::function<std::vector<MtlEntry>(const ObjName& library)> read_library;
     std::function<std::string(const MtlEntry& entry)> find_texture;
 };
 
-/// Runs fn; what it misses is noted instead, if the options allow.
+/// Runs fn; what it misses is noted instead, where that is allowed.
 template <class Fn>
-void tolerate_missing(ObjModel& model, const ObjOptions& options, Fn&& fn) {
+void tolerate_missing(ObjModel& model, bool allowed, Fn&& fn) {
     try {
         fn();
     } catch (const MissingFile& error) {
-        if (!options.allow_missing) {
+        if (!allowed) {
             throw InputError(error.file, error.line, 0,
-                             error.message + " (info --allow-missing reads on without it)");
+                             error.message + " (--allow-missing reads on without it)");
         }
         model.missing.emplace_back(error.what());
     }
 }
 
-void add_materials(ObjModel& model, const ObjText& text, const std::string& file, const Surroundings& around,
-                   const ObjOptions& options) {
-    std::map<std::string, MtlEntry> entries;
+/// Materials of all libraries by the whole rest of their newmtl line.
+using MtlEntries = std::map<std::string, MtlEntry, std::less<>>;
+
+/// The material that a usemtl line means: the one of the same whole name, or else of the same name when what
+/// stands behind a # is taken for a comment, on either side. Null when there is none.
+const MtlEntry* find_entry(const MtlEntries& entries, const ObjName& used, const std::string& file) {
+    const std::string bare(without_comment(used.name));
+    for (const std::string& name : {used.name, bare}) {
+        if (const auto at = entries.find(name); at != entries.end()) return &at->second;
+    }
+    const MtlEntry* found = nullptr;
+    for (const auto& [name, entry] : entries) {
+        if (without_comment(name) != bare) continue;
+        if (found != nullptr) {
+            throw InputError(file, used.line, 0,
+                             fmt::format("material '{}' may be '{}' or '{}'", shown(used.name),
+                                         shown(found->name), shown(name)));
+        }
+        found = &entry;
+    }
+    return found;
+}
+
+bool is_replaced(const ObjOptions& options, const std::string& name) {
+    return std::find(options.replaced.begin(), options.replaced.end(), name) != options.replaced.end();
+}
+
+/// The name under which the scene replaces the material of a usemtl line; empty when it does not.
+std::string replaced_name(const ObjOptions& options, const ObjName& used) {
+    const std::string bare(without_comment(used.name));
+    return is_replaced(options, used.name) ? used.name : is_replaced(options, bare) ? bare : "";
+}
+
+MtlEntries read_libraries(ObjModel& model, const ObjText& text, const Surroundings& around,
+                          const ObjOptions& options) {
+    MtlEntries entries;
     for (const ObjName& library : text.libraries) {
-        tolerate_missing(model, options, [&] {
+        tolerate_missing(model, options.allow_missing, [&] {
             for (MtlEntry& e : around.read_library(library))
                 entries.insert_or_assign(e.name, std::move(e));
         });
     }
+    return entries;
+}
+
+/// What a list of names says in a note: the first three.
+std::string names_text(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 3;
+    std::string out;
+    for (std::size_t i = 0; i < std::min(most, names.size()); ++i)
+        out += fmt::format("{}'{}'", i == 0 ? "" : ", ", shown(names[i]));
+    return names.size() > most ? out + fmt::format(" and {} more", names.size() - most) : out;
+}
+
+/// What materials lose, one note for each kind of loss with the names of the materials.
+class Losses {
+  public:
+    void add(const MtlEntry& entry, const std::string& name) {
+        if (entry.transparent) add("transparent in the file; drawn opaque", entry.file, name);
+        for (const std::string& keyword : entry.unread)
+            add(fmt::format("'{}' is not read", shown(keyword)), entry.file, name);
+    }
+
+    void write(std::vector<std::string>& notes) const {
+        for (const auto& [file, what, names] : rows_) {
+            const char* verb = what[0] == '\'' ? ":" : names.size() == 1 ? " is" : " are";
+            notes.push_back(fmt::format("{}: {}{} {}", file, names_text(names), verb, what));
+        }
+    }
+
+  private:
+    struct Row {
+        std::string file, what;
+        std::vector<std::string> names;
+    };
+
+    void add(const std::string& what, const std::string& file, const std::string& name) {
+        auto row = std::find_if(rows_.begin(), rows_.end(),
+                                [&](const Row& r) { return r.file == file && r.what == what; });
+        if (row == rows_.end()) row = rows_.insert(row, {file, what, {}});
+        row->names.push_back(name);
+    }
+
+    std::vector<Row> rows_;
+};
+
+void add_materials(ObjModel& model, const ObjText& text, const std::string& file, const Surroundings& around,
+                   const ObjOptions& options) {
+    const auto replaced = [&](const ObjName& used) { return !replaced_name(options, used).empty(); };
+    const bool all_replaced = !text.material_names.empty() &&
+                              std::all_of(text.material_names.begin(), text.material_names.end(), replaced);
+    const MtlEntries entries = all_replaced ? MtlEntries{} : read_libraries(model, text, around, options);
     std::map<std::string, std::int32_t> texture_number;
+    Losses losses;
     for (const ObjName& used : text.material_names) {
         Material material;
         material.name = used.name;
-        tolerate_missing(model, options, [&] {
-            const auto at = entries.find(used.name);
-            if (at == entries.end()) {
+        if (replaced(used)) {
+            material.name = replaced_name(options, used);
+            model.materials.push_back(std::move(material));
+            continue;
+        }
+        const MtlEntry* entry = nullptr;
+        tolerate_missing(model, options.allow_missing, [&] {
+            entry = find_entry(entries, used, file);
+            if (entry == nullptr) {
                 throw MissingFile(
                     file, used.line, 0,
                     fmt::format("material '{}' is not defined in any mtllib", shown(used.name)));
             }
-            material = to_material(at->second);
-            if (at->second.texture.empty()) return;
-            const std::string path = around.find_texture(at->second);
+            material = entry->material;
+            // A name that is the same only without its comment is told without it.
+            if (entry->name != used.name) material.name = without_comment(used.name);
+            losses.add(*entry, material.name);
+        });
+        tolerate_missing(model, options.allow_missing || !options.textures, [&] {
+            if (entry == nullptr || entry->texture.empty()) return;
+            const std::string path = around.find_texture(*entry);
             const auto count = static_cast<std::int32_t>(model.texture_files.size());
             const auto [number, added] = texture_number.try_emplace(path, count);
             if (added) model.texture_files.push_back(path);
@@ -193,21 +162,48 @@ void add_materials(ObjModel& model, const ObjText& text, const std::string& file
         });
         model.materials.push_back(std::move(material));
     }
+    losses.write(model.notes);
+}
+
+void add_default_material(ObjModel& model, const ObjText& text) {
     const auto default_material = static_cast<std::uint32_t>(text.material_names.size());
     const auto& used = model.mesh.material;
-    if (std::find(used.begin(), used.end(), default_material) != used.end()) {
-        model.materials.emplace_back();
-        model.materials.back().name = "default";
+    if (std::find(used.begin(), used.end(), default_material) == used.end()) return;
+    model.materials.emplace_back();
+    model.materials.back().name = "default";
+}
+
+/// What of the text the mesh does without.
+void note_skipped(ObjModel& model, const ObjText& text, const ObjMesh& mesh, const std::string& file) {
+    for (const ObjSkipped& s : text.skipped) {
+        model.notes.push_back(fmt::format("{}:{}: {} {} not read ({} line{})", file, s.line, s.what,
+                                          s.what[0] == '\'' ? "is" : "are", s.count,
+                                          s.count == 1 ? "" : "s"));
+    }
+    if (mesh.mesh.triangles.empty()) model.notes.push_back(fmt::format("{}: has no triangles", file));
+    if (mesh.merged > 0) {
+        model.notes.push_back(fmt::format(
+            "{}: {} of {} triangles collapse: the file reaches too far for its details in single precision",
+            file, mesh.merged, mesh.mesh.triangles.size()));
     }
 }
 
 ObjModel build(std::string_view obj, const std::string& file, const std::string& name,
                const Surroundings& around, const Limits& limits, const ObjOptions& options) {
-    const ObjText text = parse_obj_text(obj, file, limits);
+    ObjText text = parse_obj_text(obj, file, limits);
+    ObjMesh built = build_obj_mesh(text, name, options.crease_angle_deg);
     ObjModel model;
-    model.mesh = build_obj_mesh(text, name, options.crease_angle_deg, model.topology);
+    note_skipped(model, text, built, file);
+    model.mesh = std::move(built.mesh);
+    model.origin = built.origin;
+    model.topology = built.topology;
     model.file_positions = text.positions.size();
-    add_materials(model, text, file, around, options);
+    if (options.materials) {
+        add_materials(model, text, file, around, options);
+        add_default_material(model, text);
+    } else {
+        model.mesh.material.assign(model.mesh.triangles.size(), 0);
+    }
     return model;
 }
 
@@ -240,7 +236,7 @@ std::vector<fs::path> library_files(const ObjName& library, const fs::path& obj,
     }
     try {
         std::string_view rest = library.name;
-        for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
+        for (std::string_view word = take_name_word(rest); !word.empty(); word = take_name_word(rest)) {
             files.push_back(resolve_beside(access, folder, word));
         }
     } catch (const InputError& error) {
@@ -258,14 +254,22 @@ ObjModel load_obj(const fs::path& file, const FileAccess& access, const Limits& 
     around.read_library = [&](const ObjName& library) {
         std::vector<MtlEntry> entries;
         for (const fs::path& path : library_files(library, file, access)) {
-            for (MtlEntry& e : parse_mtl(read_limited(path, limits), path.string()))
+            for (MtlEntry& e : parse_mtl_text(read_limited(path, limits), path.string()))
                 entries.push_back(std::move(e));
         }
         return entries;
     };
     around.find_texture = [&](const MtlEntry& entry) {
+        const fs::path folder = fs::path(entry.file).parent_path();
+        const std::string bare(without_comment(entry.texture));
         try {
-            return resolve_beside(access, fs::path(entry.file).parent_path(), entry.texture).string();
+            // The whole rest of the line, or what stands before a comment.
+            try {
+                return resolve_beside(access, folder, entry.texture).string();
+            } catch (const MissingFile&) {
+                if (bare == entry.texture) throw;
+                return resolve_beside(access, folder, bare).string();
+            }
         } catch (const InputError& error) {
             rethrow_at(entry.file, entry.texture_line, fmt::format("map_Kd {}", shown(entry.texture)), error);
         }
@@ -276,8 +280,8 @@ ObjModel load_obj(const fs::path& file, const FileAccess& access, const Limits& 
 ObjModel obj_from_text(std::string_view obj, std::string_view mtl, const Limits& limits,
                        const ObjOptions& options) {
     Surroundings around;
-    around.read_library = [&](const ObjName&) { return parse_mtl(mtl, "text.mtl"); };
-    around.find_texture = [](const MtlEntry& entry) { return entry.texture; };
+    around.read_library = [&](const ObjName&) { return parse_mtl_text(mtl, "text.mtl"); };
+    around.find_texture = [](const MtlEntry& entry) { return std::string(without_comment(entry.texture)); };
     return build(obj, "text.obj", "text", around, limits, options);
 }
 

@@ -1,5 +1,7 @@
 #include "app/scene/obj_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/polygon.h"
@@ -61,13 +63,36 @@ Vec3f unit_or_zero(Vec3f n) {
     return to_float(normalize(to_double(n), {0, 0, 0}));
 }
 
-void fill_vertices(Mesh& mesh, const ObjText& text, const std::vector<ObjCorner>& corners) {
+Vec3f about(Vec3d origin, Vec3d p) {
+    return to_float(p - origin);
+}
+
+/// Along one axis, whose used numbers reach from lo to hi, of a mesh of that extent.
+double origin_along(double lo, double hi, double extent) {
+    // Beyond either bound a float's step at the far end is more than 1/500,000 of the mesh, or a tenth of a
+    // millimetre in metres.
+    constexpr double far_in_extents = 16, far = 1024;
+    const double nearest = lo > 0 ? lo : hi < 0 ? -hi : 0.0;
+    return nearest > std::min(far, far_in_extents * extent) ? std::floor(0.5 * (lo + hi)) : 0.0;
+}
+
+/// Whether two corners of a triangle are one as floats, but not in the file.
+bool merges(const ObjText& text, Vec3d origin, const std::array<std::int32_t, 3>& corner) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d a = text.positions[static_cast<std::size_t>(corner[k])];
+        const Vec3d b = text.positions[static_cast<std::size_t>(corner[(k + 1) % 3])];
+        if (!(a == b) && about(origin, a) == about(origin, b)) return true;
+    }
+    return false;
+}
+
+void fill_vertices(Mesh& mesh, const ObjText& text, Vec3d origin, const std::vector<ObjCorner>& corners) {
     mesh.positions.resize(corners.size());
     mesh.normals.assign(corners.size(), {});
     if (!text.uvs.empty()) mesh.uvs.assign(corners.size(), {});
     for (std::size_t v = 0; v < corners.size(); ++v) {
         const ObjCorner& c = corners[v];
-        mesh.positions[v] = text.positions[static_cast<std::size_t>(c.position)];
+        mesh.positions[v] = about(origin, text.positions[static_cast<std::size_t>(c.position)]);
         if (c.uv >= 0) mesh.uvs[v] = text.uvs[static_cast<std::size_t>(c.uv)];
         if (c.normal >= 0) mesh.normals[v] = unit_or_zero(text.normals[static_cast<std::size_t>(c.normal)]);
     }
@@ -75,9 +100,23 @@ void fill_vertices(Mesh& mesh, const ObjText& text, const std::vector<ObjCorner>
 
 }  // namespace
 
-Mesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_angle_deg,
-                    TopologyReport& report) {
-    Mesh mesh;
+Vec3d origin_of(const ObjText& text) {
+    if (text.corners.empty()) return {};
+    Vec3d lo = text.positions[static_cast<std::size_t>(text.corners[0].position)], hi = lo;
+    for (const ObjCorner& corner : text.corners) {
+        const Vec3d p = text.positions[static_cast<std::size_t>(corner.position)];
+        lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
+        hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
+    }
+    const double extent = std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+    return {origin_along(lo.x, hi.x, extent), origin_along(lo.y, hi.y, extent),
+            origin_along(lo.z, hi.z, extent)};
+}
+
+ObjMesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_angle_deg) {
+    ObjMesh result;
+    result.origin = origin_of(text);
+    Mesh& mesh = result.mesh;
     const auto count = static_cast<std::size_t>(text.triangles);
     mesh.triangles.reserve(count);
     mesh.material.reserve(count);
@@ -92,7 +131,8 @@ Mesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_
         const ObjCorner* corner = &text.corners[face.first_corner];
         outline.clear();
         for (std::uint32_t k = 0; k < face.corner_count; ++k) {
-            outline.push_back(text.positions[static_cast<std::size_t>(corner[k].position)]);
+            outline.push_back(
+                about(result.origin, text.positions[static_cast<std::size_t>(corner[k].position)]));
         }
         const std::uint32_t object = objects.number(face.object);
         for (const auto& cut : triangulate_polygon(outline)) {
@@ -100,6 +140,9 @@ Mesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_
             for (std::size_t k = 0; k < 3; ++k)
                 triangle.v[k] = vertices.find_or_add(corner[cut[k]]);
             mesh.triangles.push_back(triangle);
+            result.merged +=
+                merges(text, result.origin,
+                       {corner[cut[0]].position, corner[cut[1]].position, corner[cut[2]].position});
             mesh.material.push_back(face.material >= 0
                                         ? static_cast<std::uint32_t>(face.material)
                                         : static_cast<std::uint32_t>(text.material_names.size()));
@@ -108,16 +151,16 @@ Mesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_
         }
     }
     mesh.objects = std::move(objects.objects);
-    fill_vertices(mesh, text, vertices.corners);
+    fill_vertices(mesh, text, result.origin, vertices.corners);
 
     // Solids are judged by the file's own indices, before normals split vertices.
     std::vector<std::uint32_t> position_ids;
     position_ids.reserve(vertices.corners.size());
     for (const ObjCorner& c : vertices.corners)
         position_ids.push_back(static_cast<std::uint32_t>(c.position));
-    report = analyse_topology(mesh, position_ids);
+    result.topology = analyse_topology(mesh, position_ids);
     compute_normals(mesh, crease_angle_deg, smoothing);
-    return mesh;
+    return result;
 }
 
 }  // namespace obscura

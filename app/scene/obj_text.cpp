@@ -88,21 +88,34 @@ class Parser {
             out_.libraries.push_back({std::string(trimmed(rest)), lines_.number()});
         } else if (contains(free_form_keywords, keyword)) {
             fail(fmt::format("'{}': free-form curves and surfaces are not supported", keyword));
-        } else if (!contains(skipped_keywords, keyword)) {
+        } else if (contains(skipped_keywords, keyword)) {
+            skip(fmt::format("'{}'", keyword));
+        } else {
             fail(fmt::format("unknown keyword '{}'", shown(keyword)));
         }
     }
 
     /// Up to `n` numbers; how many there were.
-    template <std::size_t n>
-    std::size_t numbers(std::string_view rest, std::array<float, n>& values) const {
+    template <class T, std::size_t n>
+    std::size_t numbers(std::string_view rest, std::array<T, n>& values) const {
         std::size_t count = 0;
         for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
-            const float value = parse_float(word, {file_, lines_.number()});
-            if (count < n) values[count] = value;
+            const double value = parse_number(word, {file_, lines_.number()});
+            if (count < n) values[count] = static_cast<T>(value);
             ++count;
         }
         return count;
+    }
+
+    /// Something that is read over: told once per kind.
+    void skip(std::string_view what) {
+        const auto known = std::find_if(out_.skipped.begin(), out_.skipped.end(),
+                                        [&](const ObjSkipped& s) { return s.what == what; });
+        if (known != out_.skipped.end()) {
+            ++known->count;
+        } else {
+            out_.skipped.push_back({std::string(what), lines_.number(), 1});
+        }
     }
 
     void check_vertex_limit(std::size_t count, std::string_view what) const {
@@ -113,12 +126,13 @@ class Parser {
     }
 
     void position(std::string_view rest) {
-        std::array<float, 7> p = {};
+        std::array<double, 7> p = {};
         const std::size_t count = numbers(rest, p);
         // x y z, then a weight, a colour or both, which polygons do not use.
         if (count != 3 && count != 4 && count != 6 && count != 7) {
             fail(fmt::format("v takes 3 numbers (or 4, 6, 7 with weight and colour), found {}", count));
         }
+        if (count >= 6) skip("colours of vertices");
         check_vertex_limit(out_.positions.size(), "positions");
         out_.positions.push_back({p[0], p[1], p[2]});
     }
@@ -141,6 +155,7 @@ class Parser {
 
     void smoothing(std::string_view rest) {
         const std::string_view word = take_word(rest);
+        if (word.empty()) return;  // says nothing, so the group stays
         if (word == "off" || word == "0") {
             smoothing_ = smooth_none;
         } else if (word == "on") {
@@ -181,10 +196,10 @@ class Parser {
         const std::string_view tail = word.substr(slash + 1);
         const std::size_t second = tail.find('/');
         const std::string_view uv = tail.substr(0, second);
-        if (!uv.empty() || second == std::string_view::npos) c.uv = index(uv, word, out_.uvs.size());
-        if (second != std::string_view::npos) {
-            c.normal = index(tail.substr(second + 1), word, out_.normals.size());
-        }
+        if (!uv.empty()) c.uv = index(uv, word, out_.uvs.size());
+        if (second == std::string_view::npos) return c;
+        const std::string_view normal = tail.substr(second + 1);
+        if (!normal.empty()) c.normal = index(normal, word, out_.normals.size());
         return c;
     }
 

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
+#include "app/scene/key_ranges.h"
 #include "app/scene/keyframe_rules.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
@@ -55,7 +57,11 @@ void check_camera(const SceneTable& camera, const Sources& sources) {
     const Vec3d eye = vec3(camera, "eye_m"), target = vec3(camera, "look_at_m"), up = vec3(camera, "up");
     if (eye == target)
         fail_at(place_of(camera, "look_at_m"), sources, "'look_at_m' is the same point as 'eye_m'");
-    if (up == Vec3d{}) fail_at(place_of(camera, "up"), sources, "'up' has no direction");
+    if (length(target - eye) < key_ranges::least_distance_m) {
+        fail_at(place_of(camera, "look_at_m"), sources,
+                fmt::format("'look_at_m' is nearer to 'eye_m' than {:g} m", key_ranges::least_distance_m));
+    }
+    if (length(up) < 1e-9) fail_at(place_of(camera, "up"), sources, "'up' has no direction");
     const Vec3d view = normalize(target - eye), above = normalize(up);
     if (length(cross(view, above)) < 1e-6) {
         const Place up_place = place_of(camera, "up");
@@ -83,6 +89,18 @@ void complete_lens(SceneTable& camera, const Sources& sources) {
 
 // --- meshes
 
+/// What is scaled by less has no size that single precision can hold beside anything else.
+constexpr double least_scale = 1e-9;
+
+/// Where the first key stands that a message about a mesh names and that someone wrote; else its id.
+Place place_of_problem(const SceneTable& mesh, const std::string& problem) {
+    for (std::size_t at = problem.find('\''); at != std::string::npos; at = problem.find('\'', at + 1)) {
+        const std::string key = problem.substr(at + 1, problem.find('\'', at + 1) - at - 1);
+        if (mesh.has(key) && place_of(mesh, key).source >= 0) return place_of(mesh, key);
+    }
+    return place_of(mesh, "id");
+}
+
 void check_mesh(const SceneTable& mesh, const std::vector<std::string>& materials, const Sources& sources) {
     if (mesh.has("material")) {
         require_known(text(mesh, "material"), place_of(mesh, "material"), materials, "material", sources);
@@ -96,7 +114,11 @@ void check_mesh(const SceneTable& mesh, const std::vector<std::string>& material
     }
     const auto check_scale = [&](const SceneTable& table) {
         const Vec3d s = vec3(table, "scale");
-        if (s.x * s.y * s.z == 0) fail_at(place_of(table, "scale"), sources, "'scale' must not be 0");
+        const double least = std::min({std::fabs(s.x), std::fabs(s.y), std::fabs(s.z)});
+        if (least == 0) fail_at(place_of(table, "scale"), sources, "'scale' must not be 0");
+        if (least < least_scale)
+            fail_at(place_of(table, "scale"), sources,
+                    fmt::format("'scale' must not be nearer to 0 than {:g}", least_scale));
     };
     check_scale(mesh);
     for (const SceneTable* instance : subtables(mesh, "instance"))
@@ -104,7 +126,7 @@ void check_mesh(const SceneTable& mesh, const std::vector<std::string>& material
     const ShapeSpec* shape = find_shape(text(mesh, "shape"));
     if (shape == nullptr || !shape->problem) return;
     const std::string problem = shape->problem(mesh);
-    if (!problem.empty()) fail_at(place_of(mesh, "id"), sources, problem);
+    if (!problem.empty()) fail_at(place_of_problem(mesh, problem), sources, problem);
 }
 
 void check_triangles(const SceneDocument& document) {

@@ -120,6 +120,7 @@ std::string allowed_text(const KeySpec& key) {
     const std::string word = key.word.empty() ? "" : fmt::format(" or \"{}\"", key.word);
     if (!key.allowed.empty()) return fmt::format("one of {}{}", fmt::join(key.allowed, ", "), word);
     const Range& r = key.range;
+    if (key.type == KeyType::date_time) return fmt::format("in the years {} to {}", r.lo, r.hi);
     const bool below = r.hi != std::numeric_limits<double>::infinity();
     const bool above = r.lo != -std::numeric_limits<double>::infinity();
     if (above && below) {

@@ -32,7 +32,8 @@ enum class KeyType {
     name_map,    ///< NAME = "name" pairs, whose keys are any text
 };
 
-/// Numbers from lo to hi; an open end excludes its bound. Applies to each component of a vector.
+/// Numbers from lo to hi; an open end excludes its bound. Applies to each component of a vector, and to the
+/// year of a date.
 struct Range {
     double lo = -std::numeric_limits<double>::infinity(), hi = std::numeric_limits<double>::infinity();
     bool open_lo = false, open_hi = false;

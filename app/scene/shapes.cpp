@@ -1,5 +1,7 @@
 #include "app/scene/shapes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "app/scene/generators.h"
@@ -8,7 +10,9 @@
 namespace obscura {
 namespace {
 
-constexpr Range length_range{0, 1e6, true, false};
+/// A micrometre: products of three lengths stay far from what floats cannot hold.
+constexpr double least_length_m = 1e-6;
+constexpr Range length_range{least_length_m, 1e6};
 
 KeySpec length_key(const char* name, const char* doc) {
     return number_key(name, doc).in(length_range);
@@ -84,6 +88,12 @@ ShapeSpec cylinder_shape() {
                 const double base = number(t, "radius_m");
                 const double top = t.has("top_radius_m") ? number(t, "top_radius_m") : base;
                 return GeneratedModel{frustum(base, top, number(t, "height_m"), count(t, "segments")), {}};
+            },
+            [](const SceneTable& t) -> std::string {
+                const double top = t.has("top_radius_m") ? number(t, "top_radius_m") : 0;
+                return top == 0 || top >= least_length_m
+                           ? ""
+                           : fmt::format("'top_radius_m' must be 0 or at least {:g}", least_length_m);
             }};
 }
 
@@ -104,9 +114,13 @@ ShapeSpec torus_shape() {
                                       {}};
             },
             [](const SceneTable& t) -> std::string {
-                return number(t, "tube_radius_m") < number(t, "radius_m")
-                           ? ""
-                           : "'tube_radius_m' must be less than 'radius_m'";
+                const double tube = number(t, "tube_radius_m"), radius = number(t, "radius_m");
+                if (!(tube < radius)) return "'tube_radius_m' must be less than 'radius_m'";
+                // Eight steps of a float at that radius for each side of the tube.
+                const double least = 1e-6 * radius * static_cast<double>(integer(t, "sides"));
+                if (tube >= least) return "";
+                return fmt::format("'tube_radius_m' must be at least {:g} for such 'radius_m' and 'sides'",
+                                   least);
             }};
 }
 

@@ -212,6 +212,9 @@ StereoSettings stereo_settings(const SceneDocument& document, const Scene& scene
     s.solver.tolerance_rms_px = 0.4 * s.solver.tolerance_max_px;
     set_limit(table, "comfort_near", s.rig, scene.render.width, s.edit.comfort.nearest_px);
     set_limit(table, "comfort_far", s.rig, scene.render.width, s.edit.comfort.farthest_px);
+    // Vergence comes back as pixels with rounding, or as infinite where eyes cannot turn so far.
+    s.edit.comfort.nearest_px = std::max(s.edit.comfort.nearest_px, 0.0);
+    s.edit.comfort.farthest_px = std::min(s.edit.comfort.farthest_px, 0.0);
     set_remap_pixels(table, scene.render.width, s.compare_remap);
     for (const SceneTable* edit : subtables(table, "edit"))
         add_edit(r, stereo_edit_at(document, *edit, frame));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cfloat>
 #include <charconv>
 #include <cmath>
@@ -12,7 +13,30 @@ namespace obscura {
 namespace {
 
 bool is_blank(char c) {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
+/// Whether a backslash joins the line with the next one. Blanks behind it are not seen by people. In a
+/// comment it is a part of the comment: the folder of a path, as a rule, and what follows is a statement.
+bool joins_next(std::string_view line) {
+    const std::string_view seen = trimmed(line);
+    return !seen.empty() && seen.back() == '\\' && seen.find('#') == std::string_view::npos;
+}
+
+/// Takes the next word off `rest`, up to a character that `ends` it; empty at a comment.
+template <class Ends>
+std::string_view take_until(std::string_view& rest, Ends ends) {
+    std::size_t begin = 0;
+    while (begin < rest.size() && is_blank(rest[begin]))
+        ++begin;
+    std::size_t end = begin;
+    if (begin < rest.size() && rest[begin] != '#') {
+        while (end < rest.size() && !ends(rest[end]))
+            ++end;
+    }
+    const std::string_view word = rest.substr(begin, end - begin);
+    rest.remove_prefix(word.empty() ? rest.size() : end);
+    return word;
 }
 
 }  // namespace
@@ -22,10 +46,11 @@ LineReader::LineReader(std::string_view text) : rest_(text) {
 }
 
 std::string_view LineReader::take_piece() {
-    const std::size_t end = rest_.find('\n');
-    std::string_view piece = rest_.substr(0, end);
-    rest_.remove_prefix(end == std::string_view::npos ? rest_.size() : end + 1);
-    if (!piece.empty() && piece.back() == '\r') piece.remove_suffix(1);
+    const std::size_t end = rest_.find_first_of("\r\n");
+    const std::string_view piece = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end, rest_.size()));
+    // CRLF is one end.
+    rest_.remove_prefix(rest_.substr(0, 2) == "\r\n" ? 2 : std::min<std::size_t>(1, rest_.size()));
     ++next_number_;
     return piece;
 }
@@ -34,11 +59,11 @@ bool LineReader::next() {
     if (rest_.empty()) return false;
     number_ = next_number_;
     line_ = take_piece();
-    if (line_.empty() || line_.back() != '\\') return true;
+    if (!joins_next(line_)) return true;
 
     joined_.assign(line_);
-    while (!joined_.empty() && joined_.back() == '\\') {
-        joined_.back() = ' ';
+    while (joins_next(joined_)) {
+        joined_[joined_.rfind('\\')] = ' ';
         if (rest_.empty()) break;
         joined_.append(take_piece());
     }
@@ -47,17 +72,18 @@ bool LineReader::next() {
 }
 
 std::string_view take_word(std::string_view& rest) {
-    std::size_t begin = 0;
-    while (begin < rest.size() && is_blank(rest[begin]))
-        ++begin;
-    std::size_t end = begin;
-    if (begin < rest.size() && rest[begin] != '#') {
-        while (end < rest.size() && !is_blank(rest[end]))
-            ++end;
+    return take_until(rest, [](char c) { return is_blank(c) || c == '#'; });
+}
+
+std::string_view take_name_word(std::string_view& rest) {
+    return take_until(rest, is_blank);
+}
+
+std::string_view without_comment(std::string_view name) {
+    for (std::size_t i = 1; i < name.size(); ++i) {
+        if (name[i] == '#' && is_blank(name[i - 1])) return trimmed(name.substr(0, i));
     }
-    const std::string_view word = rest.substr(begin, end - begin);
-    rest.remove_prefix(word.empty() ? rest.size() : end);
-    return word;
+    return name;
 }
 
 std::string_view trimmed(std::string_view rest) {
@@ -68,7 +94,7 @@ std::string_view trimmed(std::string_view rest) {
     return rest;
 }
 
-float parse_float(std::string_view word, const TextPlace& place) {
+double parse_number(std::string_view word, const TextPlace& place) {
     std::string_view digits = word;
     if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
     double value = 0;
@@ -90,7 +116,11 @@ float parse_float(std::string_view word, const TextPlace& place) {
         throw InputError(place.file, place.line, 0,
                          fmt::format("'{}' is not a finite number in single precision", shown(word)));
     }
-    return static_cast<float>(value);
+    return value;
+}
+
+float parse_float(std::string_view word, const TextPlace& place) {
+    return static_cast<float>(parse_number(word, place));
 }
 
 std::string shown(std::string_view word) {

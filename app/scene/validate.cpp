@@ -169,6 +169,10 @@ SceneValue checked_date_time(const KeySpec& key, const SceneValue& value, const 
         fail_at(value.place, sources,
                 fmt::format("'{}' needs an offset from UTC, as in 2026-06-21T18:00:00+02:00", key.name));
     }
+    if (!key.range.contains(t->year)) {
+        fail_at(value.place, sources,
+                fmt::format("'{}' must be {}, not {}", key.name, allowed_text(key), t->year));
+    }
     return value;
 }
 

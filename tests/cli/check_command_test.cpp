@@ -54,7 +54,7 @@ file = "out_####.png"
           "hierarchically, about 12.0 MiB",
           "light     sun: directional, 1 compressed shadow map of 512 x 512, texels of ",
           "          auto: a texel spans 0.",
-          "meshes    12 triangles, 24 vertices, 1 objects, 1 closed and 0 open components", "\nok\n"}) {
+          "meshes    12 triangles, 24 vertices, 1 object, 1 closed and 0 open components", "\nok\n"}) {
         EXPECT_NE(report.find(line), std::string::npos) << line << "\nis not in\n" << report;
     }
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path),
@@ -123,6 +123,47 @@ TEST(CheckCommand, PatternsOutOfReachAreToldWhereTheLensIs) {
         text.find("limit: " + (folder.path / "a.toml").string() + ":7:2: the lens's pattern needs 2.16e+12 "),
         0u)
         << text;
+}
+
+TEST(CheckCommand, TellsWhatFilesHoldThatThePictureWillNot) {
+    TemporaryFolder folder;
+    folder.write("a.mtl", "newmtl x\nd 0.2\n");
+    folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n");
+    folder.write("empty.obj", "# nothing\n");
+    folder.write("lost.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl (null)\nf 1 2 3\n");
+    folder.write("s.toml", R"(format = 1
+camera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}
+mesh = [{id = "a", file = "a.obj"}, {id = "a2", file = "a.obj"}, {id = "e", file = "empty.obj"},
+        {id = "far", shape = "box", size_m = 0.1, translate_m = [5e6, 0, 5e6]},
+        {id = "lost", file = "lost.obj"}]
+)");
+    CheckOptions options{folder.path / "s.toml", {}, {}};
+    EXPECT_THROW(check_report(options), InputError);
+    options.allow_missing = true;
+    const std::string report = check_report(options);
+    const std::string root = folder.path.string();
+    for (const std::string& line :
+         {"note      " + root + "/a.mtl: 'x' is transparent in the file; drawn opaque\n",
+          "note      " + root + "/empty.obj: has no triangles\n",
+          "note      " + root + "/lost.obj:4: material '(null)' is not defined in any mtllib\n",
+          std::string("note      mesh 'far': single precision has steps of 0.5 m where it stands: 12 of 12 "
+                      "triangles collapse, 0 more have edges of a few steps")}) {
+        const std::size_t at = report.find(line);
+        EXPECT_NE(at, std::string::npos) << line << "\nis not in\n" << report;
+        EXPECT_EQ(report.find(line, at + 1), std::string::npos) << "twice: " << line;
+    }
+}
+
+TEST(CheckCommand, SurveyedMeshesArePlacedBeforeTheyAreRounded) {
+    TemporaryFolder folder;
+    folder.write("far.obj", "v 500000 0 5400000.3\nv 500000 0 5400000.5\nv 500000 1 5400000.3\nf 1 2 3\n");
+    folder.write("s.toml", R"(format = 1
+camera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}
+mesh = [{id = "m", file = "far.obj", translate_m = [-500000, 0, -5400000]}]
+)");
+    EXPECT_EQ(check_report({folder.path / "s.toml", {}, {}}).find("note      mesh"), std::string::npos);
+    const std::string left = check_report({folder.path / "s.toml", {"mesh.m.translate_m=[0,0,0]"}, {}});
+    EXPECT_NE(left.find("where it stands: 1 of 1 triangles collapse"), std::string::npos) << left;
 }
 
 }  // namespace

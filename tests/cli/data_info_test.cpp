@@ -180,7 +180,7 @@ std::filesystem::path data_folder() {
 
 class DataInfo : public testing::TestWithParam<Row> {};
 
-void expect_near(Vec3f actual, Vec3f expected, float tolerance) {
+void expect_near(Vec3d actual, Vec3f expected, float tolerance) {
     EXPECT_NEAR(actual.x, expected.x, tolerance);
     EXPECT_NEAR(actual.y, expected.y, tolerance);
     EXPECT_NEAR(actual.z, expected.z, tolerance);

@@ -85,10 +85,10 @@ TEST(FlagValues, InstructionSets) {
     EXPECT_THROW(isa_value("--isa", "neon"), UsageError);
 }
 
-TEST(OutputPlan, FrameNumbersFillEveryRunOfHashes) {
+TEST(OutputPlan, FrameNumbersFillTheLastRunOfHashesOfTheName) {
     const PlannedOutput output{Aov::beauty, "a##/b_####.png", FileKind::png};
-    EXPECT_EQ(output_path(output, 7), "a07/b_0007.png");
-    EXPECT_EQ(output_path(output, 12345), "a12345/b_12345.png");
+    EXPECT_EQ(output_path(output, 7), "a##/b_0007.png");
+    EXPECT_EQ(output_path(output, 12345), "a##/b_12345.png");
 }
 
 TEST(OutputPlan, TheFlagReplacesTheListAndAovsLieBeside) {

@@ -137,6 +137,30 @@ TEST(Render, FramesFillTheHashes) {
     EXPECT_EQ(folder.listing().size(), 5u);
 }
 
+TEST(Render, HashesOfFoldersAndOfSingleFramesStay) {
+    const SceneFolder folder("");
+    std::filesystem::create_directory(folder / "job ##12");
+    std::filesystem::rename(folder / "s.toml", folder / "take ##3.toml");
+    EXPECT_EQ(run_in(folder, {"render", "take ##3.toml"}).code, 0);
+    EXPECT_EQ(run_in(folder, {"render", "take ##3.toml", "-o", "job ##12/a#.png", "--aov", "depth"}).code, 0);
+    EXPECT_EQ(run_in(folder, {"render", "take ##3.toml", "-o", "a#_##.png"}).code, 0);
+    for (const char* file : {"take ##3.png", "job ##12/a#.png", "job ##12/a#.depth.pfm", "a#_01.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+
+    const std::vector<std::string> two{"render", "take ##3.toml", "-D", "frames.range=\"1-2\""};
+    const auto also = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), two.begin(), two.end());
+        return run_in(folder, more);
+    };
+    EXPECT_EQ(also({}).code, 0);
+    EXPECT_EQ(also({"-o", "job ##12/b#.png", "--frames", "2"}).code, 0);
+    for (const char* file : {"take ##3.0001.png", "take ##3.0002.png", "job ##12/b2.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+    const Outcome folders = also({"-o", "job ##12/c.png"});
+    EXPECT_EQ(folders.code, 2);
+    EXPECT_NE(folders.err.find("need #### in the name"), std::string::npos) << folders.err;
+}
+
 TEST(Render, TheScenesOutputListIsWritten) {
     const SceneFolder folder(
         "[[output]]\nfile = \"look.png\"\n[[output]]\naov = \"normal\"\nfile = \"n.pfm\"\n");

@@ -20,6 +20,7 @@ constexpr QuirkRow rows[] = {
      "the library takes it for a part of the first keyword and drops the line"},
     {"joined lines", translated, "the library knows no backslash at the end of a line"},
     {"comment behind a face", translated, "the library reads # as index 0 and refuses the file"},
+    {"empty slots", translated, "a corner as 1/1/ or 1//: the library reads index 0 and refuses the file"},
     {"other blanks", translated, "the library knows space and tab, not vertical tab and form feed"},
     {"blank in a name", translated, "usemtl takes one word, newmtl the line: such a material is never found"},
     {"elements we skip", translated, "one index 0 in an l or p, one joint below 0 in a vw: all is refused"},
@@ -38,9 +39,10 @@ constexpr QuirkRow rows[] = {
     {"number out of range", not_compared,
      "300 digits or 10^300: the library multiplies by pow(5, n), 0e500 is NaN to it"},
     {"NUL byte", not_compared, "the library's lines end there"},
-    {"lone carriage return", not_compared, "ends a line in the library, a blank with us"},
-    {"comment that joins", not_compared,
-     "a comment ending in a backslash: we join first and lose the next line, the library does not"},
+    {"comment behind a name", not_compared,
+     "usemtl takes one word, newmtl and map_Kd the line: the library has the comment in the name"},
+    {"short -o, -s or -t", not_compared,
+     "the library wants three numbers and takes the file for one of them"},
 };
 static_assert(std::size(rows) == quirk_count);
 
@@ -63,16 +65,28 @@ std::vector<std::string> words(const std::string& text) {
     return list;
 }
 
-/// Where a comment begins: # at the start of a word.
-std::size_t comment_at(const std::string& line) {
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        if (line[i] == '#' && (i == 0 || is_blank(line[i - 1]))) return i;
+/// Whether a name is followed by what may be a comment: # behind a blank.
+bool has_comment(const std::string& name) {
+    for (std::size_t i = 1; i < name.size(); ++i) {
+        if (name[i] == '#' && is_blank(name[i - 1])) return true;
     }
-    return std::string::npos;
+    return false;
+}
+
+/// The text with LF alone between its lines.
+std::string with_line_feeds(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool pair = text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n';
+        if (!pair) out += text[i] == '\r' ? '\n' : text[i];
+    }
+    return out;
 }
 
 /// The lines of a text after joining, with no blanks but spaces and tabs.
-std::vector<std::string> logical_lines(std::string_view text, Quirks& found) {
+std::vector<std::string> logical_lines(std::string_view bytes, Quirks& found) {
+    const std::string fed = with_line_feeds(bytes);
+    std::string_view text = fed;
     if (text.find('\0') != std::string_view::npos) note(found, Quirk::nul_byte);
     if (text.substr(0, 3) == "\xEF\xBB\xBF") {
         note(found, Quirk::byte_order_mark);
@@ -84,23 +98,21 @@ std::vector<std::string> logical_lines(std::string_view text, Quirks& found) {
         const std::size_t end = std::min(text.find('\n'), text.size());
         std::string line(text.substr(0, end));
         text.remove_prefix(std::min(end + 1, text.size()));
-        if (!line.empty() && line.back() == '\r') line.pop_back();
-        if (line.find('\r') != std::string::npos) note(found, Quirk::lone_return);
         if (line.find_first_of("\v\f") != std::string::npos) note(found, Quirk::other_blanks);
         std::replace_if(
             line.begin(), line.end(), [](char c) { return c == '\v' || c == '\f'; }, ' ');
-        const bool joins_next = !line.empty() && line.back() == '\\';
-        if (joins_next) {
-            note(found, Quirk::joined_lines);
-            line.back() = ' ';
-        }
         if (join) {
             lines.back() += line;
         } else {
             lines.push_back(line);
         }
-        if (joins_next && comment_at(lines.back()) != std::string::npos) note(found, Quirk::comment_joins);
-        join = joins_next;
+        std::string& whole = lines.back();
+        const std::size_t last = whole.find_last_not_of(" \t");
+        join = last != std::string::npos && whole[last] == '\\' && whole.find('#') == std::string::npos;
+        if (join) {
+            note(found, Quirk::joined_lines);
+            whole[last] = ' ';
+        }
     }
     return lines;
 }
@@ -121,9 +133,33 @@ Statement split(const std::string& line) {
 }
 
 std::string without_comment(const std::string& rest, Quirks& found) {
-    const std::size_t at = comment_at(rest);
+    const std::size_t at = rest.find('#');
     if (at != std::string::npos) note(found, Quirk::comment_behind);
     return rest.substr(0, at);
+}
+
+/// Corners without the slashes behind their last index.
+std::string without_empty_slots(const std::string& corners, Quirks& found) {
+    std::string out;
+    for (std::string word : words(corners)) {
+        if (word.back() == '/') note(found, Quirk::empty_slots);
+        out += word.substr(0, word.find_last_not_of('/') + 1) + " ";
+    }
+    return out;
+}
+
+/// Whether a texture statement has an -o, -s or -t without all of its numbers.
+bool has_short_option(const std::string& statement) {
+    const std::vector<std::string> list = words(statement);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (list[i] != "-o" && list[i] != "-s" && list[i] != "-t") continue;
+        for (std::size_t k = 1; k <= 3; ++k) {
+            if (i + k + 1 >= list.size() ||
+                list[i + k].find_first_not_of("+-.0123456789eE") != std::string::npos)
+                return true;
+        }
+    }
+    return false;
 }
 
 /// Notes a number that the library's arithmetic does not carry.
@@ -137,6 +173,7 @@ void check_range(const std::string& numbers, Quirks& found) {
 }
 
 std::string plain_name(const std::string& name, Quirks& found) {
+    if (has_comment(name)) note(found, Quirk::name_comment);
     if (name.find_first_of(" \t") != std::string::npos) note(found, Quirk::blank_in_name);
     return obscura::plain_name(name);
 }
@@ -159,7 +196,7 @@ std::string plain_statement(const Statement& s, Order& order, Quirks& found) {
     }
     if (is(s.keyword, {"f", "fo"})) {
         if (s.keyword == "fo") note(found, Quirk::old_face_keyword);
-        const std::string corners = without_comment(s.rest, found);
+        const std::string corners = without_empty_slots(without_comment(s.rest, found), found);
         if (words(corners).size() > 255) note(found, Quirk::many_corners);
         return "f " + corners + "\n";
     }
@@ -171,7 +208,7 @@ std::string plain_statement(const Statement& s, Order& order, Quirks& found) {
     }
     if (s.keyword == "mtllib") {
         const bool plain = order.libraries++ == 0 && !order.used;
-        if (!plain || s.rest.find_first_of(" \t\\") != std::string::npos) note(found, Quirk::library_lines);
+        if (!plain || s.rest.find_first_of(" \t\\#") != std::string::npos) note(found, Quirk::library_lines);
         return "";
     }
     // Smoothing groups are not compared; lines, points, weights and the like belong to no triangle.
@@ -236,6 +273,8 @@ std::string plain_mtl(std::string_view text, Quirks& found) {
             check_range(s.rest, found);
             body += s.keyword + " " + s.rest + "\n";
         } else if (s.keyword == "map_Kd") {
+            if (has_comment(s.rest)) note(found, Quirk::name_comment);
+            if (has_short_option(s.rest)) note(found, Quirk::short_option);
             body += s.keyword + " " + s.rest + "\n";
         } else {
             body += line + "\n";

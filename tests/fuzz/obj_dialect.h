@@ -15,6 +15,7 @@ enum class Quirk {
     byte_order_mark,
     joined_lines,
     comment_behind,
+    empty_slots,
     other_blanks,
     blank_in_name,
     unread_elements,
@@ -29,10 +30,10 @@ enum class Quirk {
     // Not compared.
     number_range,
     nul_byte,
-    lone_return,
-    comment_joins,
+    name_comment,
+    short_option,
 };
-constexpr std::size_t quirk_count = static_cast<std::size_t>(Quirk::comment_joins) + 1;
+constexpr std::size_t quirk_count = static_cast<std::size_t>(Quirk::short_option) + 1;
 using Quirks = std::bitset<quirk_count>;
 
 enum class QuirkEffect { translated, one_thing_left_out, not_compared };

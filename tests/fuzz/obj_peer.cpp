@@ -96,7 +96,10 @@ void compare_numbers(std::string_view what, const float* ours, std::size_t count
 void compare_elements(const ObjText& text, const tinyobj::attrib_t& attrib) {
     static_assert(sizeof(Vec3f) == 3 * sizeof(float) && sizeof(Vec2f) == 2 * sizeof(float));
     const auto flat = [](const auto& vectors) { return reinterpret_cast<const float*>(vectors.data()); };
-    compare_numbers("v", flat(text.positions), text.positions.size() * 3, attrib.vertices);
+    std::vector<Vec3f> positions;
+    for (const Vec3d p : text.positions)
+        positions.push_back(to_float(p));
+    compare_numbers("v", flat(positions), positions.size() * 3, attrib.vertices);
     compare_numbers("vt", flat(text.uvs), text.uvs.size() * 2, attrib.texcoords);
     compare_numbers("vn", flat(text.normals), text.normals.size() * 3, attrib.normals);
 }
@@ -119,9 +122,11 @@ void compare_faces(const ObjText& text, const PeerModel& peer) {
 }
 
 /// One vertex of the model against the elements that the library's corner names.
-void compare_vertex(const Mesh& mesh, std::uint32_t v, const ObjText& text, const ObjCorner& corner,
+void compare_vertex(const ObjModel& model, std::uint32_t v, const ObjText& text, const ObjCorner& corner,
                     std::size_t triangle) {
-    expect(mesh.positions[v] == text.positions[static_cast<std::size_t>(corner.position)],
+    const Mesh& mesh = model.mesh;
+    const Vec3d position = text.positions[static_cast<std::size_t>(corner.position)];
+    expect(mesh.positions[v] == to_float(position - model.origin),
            "triangle {}: another position than the library's corner", triangle);
     Vec2f uv{};
     if (corner.uv >= 0) uv = text.uvs[static_cast<std::size_t>(corner.uv)];
@@ -162,8 +167,7 @@ void compare_material(const ObjModel& model, const Material& ours, const tinyobj
            ours.name, ours.metallic, expected.metallic);
     expect(within_ulp(ours.roughness, expected.roughness), "material '{}': roughness {}, the library's {}",
            ours.name, ours.roughness, expected.roughness);
-    std::string texture = theirs.diffuse_texname;
-    std::replace(texture.begin(), texture.end(), '\\', '/');
+    const std::string& texture = theirs.diffuse_texname;
     const std::string has =
         ours.texture < 0 ? "" : model.texture_files[static_cast<std::size_t>(ours.texture)];
     expect(has == texture, "material '{}': texture '{}', in the library '{}'", ours.name, has, texture);
@@ -221,11 +225,12 @@ void compare_triangles(const ObjText& text, const ObjModel& model, const PeerMod
         const ObjCorner* corner = &peer.corners[first];
         outline.clear();
         for (std::uint32_t k = 0; k < text.faces[f].corner_count; ++k)
-            outline.push_back(text.positions[static_cast<std::size_t>(corner[k].position)]);
+            outline.push_back(
+                to_float(text.positions[static_cast<std::size_t>(corner[k].position)] - model.origin));
         for (const auto& cut : triangulate_polygon(outline)) {
             expect(t < model.mesh.triangles.size(), "only {} triangles", t);
             for (std::size_t k = 0; k < 3; ++k)
-                compare_vertex(model.mesh, model.mesh.triangles[t].v[k], text, corner[cut[k]], t);
+                compare_vertex(model, model.mesh.triangles[t].v[k], text, corner[cut[k]], t);
             labels.compare(t, peer.faces[f]);
             ++t;
         }

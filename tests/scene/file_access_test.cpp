@@ -53,6 +53,21 @@ TEST_F(FileAccessTest, FilesInsideAreRead) {
     EXPECT_EQ(read_input(access, "meshes/a.obj", 100), "inside");
 }
 
+TEST_F(FileAccessTest, ABackslashIsASlashWhereNoFileHasIt) {
+    EXPECT_EQ(read_input(access, "meshes\\a.obj", 100), "inside");
+    folder.write("scene/meshes\\a.obj", "with a backslash");
+    EXPECT_EQ(read_input(access, "meshes\\a.obj", 100), "with a backslash");
+    expect_outside("..\\outside\\secret.obj");
+    expect_error<MissingFile>([&] { resolve_input(access, "meshes\\b.obj"); }, "No such file");
+}
+
+TEST_F(FileAccessTest, NamesTheFolderThatIsLeft) {
+    expect_error<InputError>([&] { resolve_input(access, "../outside/secret.obj"); },
+                             "leads outside " + (folder.path / "scene").string() + " (");
+    expect_error<InputError>([&] { resolve_input({}, "../secret.obj"); },
+                             "leads outside " + fs::current_path().string() + " (");
+}
+
 TEST_F(FileAccessTest, NothingOutside) {
     expect_outside("../outside/secret.obj");
     expect_outside("meshes/../../outside/secret.obj");

@@ -39,7 +39,11 @@ std::vector<BadText> bad_texts() {
         {"index_zero", t + "f 0 1 2\n", "", "text.obj:4: '0': index 0; OBJ counts from 1"},
         {"index_word", t + "f 1 2 x\n", "", "text.obj:4: 'x' is not a face corner"},
         {"index_fraction", t + "f 1 2 3.0\n", "", "'3.0' is not a face corner"},
-        {"corner_half_open", t + "f 1/ 2 3\n", "", "'1/' is not a face corner"},
+        {"corner_half_open", t + "f /1 2 3\n", "", "'/1' is not a face corner"},
+        {"corner_three_slashes", t + "f 1/// 2 3\n", "", "'1///' is not a face corner"},
+        {"comment_does_not_join", t + "f 1 2 # C:\\\n3\n", "", "text.obj:4: a face needs 3 corners"},
+        {"material_of_two_comments", lib, "newmtl m # a\nnewmtl m # b\n",
+         "text.obj:5: material 'm' may be 'm # a' or 'm # b'"},
         {"corner_four_parts", t + "vt 0 0\nvn 0 0 1\nf 1/1/1/1 2 3\n", "", "'1/1/1/1' is not a face corner"},
         {"uv_index_beyond", t + "vt 0 0\nf 1/1 2/2 3/1\n", "",
          "text.obj:5: texture index 2 is out of range, the file has 1"},
@@ -74,7 +78,7 @@ std::vector<BadText> bad_texts() {
          "free-form curves and surfaces are not supported"},
         {"smoothing_word", "s maybe\n", "", "text.obj:1: s takes a group number or off, found 'maybe'"},
         {"unknown_material", "mtllib a.mtl\n" + t + "usemtl n\nf 1 2 3\n", "newmtl m\n",
-         "text.obj:5: material 'n' is not defined in any mtllib (info --allow-missing"},
+         "text.obj:5: material 'n' is not defined in any mtllib (--allow-missing"},
         {"mtl_before_newmtl", lib, "Kd 1 1 1\nnewmtl m\n", "text.mtl:1: Kd before any newmtl"},
         {"mtl_word", lib, "newmtl m\nKd red\n", "text.mtl:2: 'red' is not a number"},
         {"mtl_two_numbers", lib, "newmtl m\nKs 1 2\n", "text.mtl:2: Ks takes 3 numbers, found 2"},
@@ -132,7 +136,7 @@ TEST_F(ObjFileErrors, Materials) {
     expect_error<InputError>(obj("mtllib link.mtl"), "m.obj:1: mtllib link.mtl: leads outside");
     expect_error<InputError>(obj("mtllib none.mtl"),
                              "m.obj:1: mtllib none.mtl: cannot open: No such file or "
-                             "directory (info --allow-missing");
+                             "directory (--allow-missing");
     expect_error<InputError>(obj("mtllib"), "m.obj:1: mtllib : empty file name");
     expect_error<InputError>(obj("mtllib ."), "scene: not a regular file, but a folder");
     folder.write("scene/bad.mtl", "newmtl a\n\nKd x\n");

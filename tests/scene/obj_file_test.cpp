@@ -193,6 +193,116 @@ TEST(ObjFile, AllowMissingNotesWhatIsMissing) {
     EXPECT_TRUE(model.texture_files.empty());
 }
 
+TEST(ObjFile, CommentsAndLineEndsLoseNothing) {
+    const std::string faces = "f 1 2 3\nf 1 3 2\n";
+    for (const std::string& text : {
+             triangle + std::string("# from C:\\models\\\n") + faces,
+             "# C:\\models\\  \n" + std::string(triangle) + faces,
+             triangle + std::string("f 1 2 3 # C:\\\nf 1 3 2\n"),
+             triangle + std::string("f 1 2 3# C:\\\nf 1 3 2#last\n"),
+             triangle + std::string("f 1 2 \\ \t\n 3\nf 1 \\\r\n 3 2\n"),
+             std::string("# old\rv 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 \\\r3\rf 1 3 2\r"),
+             std::string("# mixed\rv 0 0 0\nv 1 0 0\r\nv 0 1 0\r\rf 1 2 3\rf 1 3 2"),
+             triangle + std::string("s\nf 1/ 2// 3\nvt 0 0\nvn 0 0 1\nf 1/1/ 3/1 2//1\n"),
+         }) {
+        EXPECT_EQ(read(text).mesh.triangles.size(), 2u) << text;
+    }
+    const ObjModel model = read(std::string("mtllib a.mtl\r") + triangle + "usemtl m\rf 1 2 3\r",
+                                "# C:\\mtl\\\rnewmtl m\r# Kd\\\rKd 1 0 0#red\r");
+    EXPECT_EQ(model.materials[0].base_color, (Vec3f{1, 0, 0}));
+}
+
+TEST(ObjFile, CommentsBehindNames) {
+    const auto used = [](const std::string& name, const std::string& mtl) {
+        return obj_from_text(std::string("mtllib a.mtl\n") + triangle + "usemtl " + name + "\nf 1 2 3\n", mtl,
+                             Limits{})
+            .materials[0];
+    };
+    const std::string red = "Kd 1 0 0\n", blue = "Kd 0 0 1\n";
+    EXPECT_EQ(used("red # door", "newmtl red # paint\n" + red).name, "red");
+    EXPECT_EQ(used("red", "newmtl red\t# paint\n" + red).name, "red");
+    EXPECT_EQ(used("red # door", "newmtl red\n" + red).name, "red");
+    EXPECT_EQ(used("red#1", "newmtl red#1\n" + red + "newmtl red\n" + blue).name, "red#1");
+    // The name with the # in it comes first.
+    const Material whole = used("a # 2", "newmtl a\n" + red + "newmtl a # 2\n" + blue);
+    EXPECT_EQ(whole.name, "a # 2");
+    EXPECT_EQ(whole.base_color, (Vec3f{0, 0, 1}));
+}
+
+TEST(ObjFile, TextureOptionsMayLackNumbers) {
+    for (const char* options : {"-s 1 -o 0 0", "-s 1 1 -t 0", "-o 0", "-clamp off -mm 0 1 -s 1 1 1", ""}) {
+        const ObjModel model =
+            obj_from_text(std::string("mtllib a.mtl\n") + triangle + "usemtl m\nf 1 2 3\n",
+                          std::string("newmtl m\nmap_Kd ") + options + " my t.png # wood\n", Limits{});
+        EXPECT_EQ(model.texture_files, std::vector<std::string>{"my t.png"}) << options;
+    }
+}
+
+TEST(ObjFile, WhatIsNotReadIsNotedOnceOfAKind) {
+    const ObjModel model = read(
+        std::string("mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nl 1 2\nl 2 3\n") +
+            "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\n",
+        "newmtl a\nd 0.2\nTr 0.8\nmap_d mask.png\nmap_Bump a.png\nmap_Bump b.png\n"
+        "newmtl b\nTf 0.5 1 1\nmap_Bump c.png\nnewmtl c\nillum 4\n"
+        "newmtl d\nd 1\nTr 1\nTf 1 1 1\nillum 2\nKa 1 1 1\nNi 1.5\nnewmtl unused\nd 0.5\nmap_Ks d.png\n");
+    EXPECT_EQ(model.notes, (std::vector<std::string>{
+                               "text.obj:2: colours of vertices are not read (3 lines)",
+                               "text.obj:5: 'l' is not read (2 lines)",
+                               "text.mtl: 'a', 'b', 'c' are transparent in the file; drawn opaque",
+                               "text.mtl: 'a', 'b': 'map_Bump' is not read",
+                           }));
+    EXPECT_EQ(read("# nothing\n").notes, std::vector<std::string>{"text.obj: has no triangles"});
+}
+
+TEST(ObjFile, SurveyedCoordinatesKeepTheirDetails) {
+    // A wall of 0.2 m at 5,400,000 m, where single precision has steps of half a metre.
+    const ObjModel model = read(
+        "v 500000.000 0 5400000.300\nv 500000.000 0 5400000.500\nv 500000.000 1 5400000.300\n"
+        "v 500002.000 0 5400000.300\nf 1 2 3\nf 1 2 4\n");
+    EXPECT_EQ(model.topology.degenerate_triangles, 0u);
+    EXPECT_TRUE(model.notes.empty());
+    EXPECT_EQ(model.origin, (Vec3d{500001, 0, 5400000}));
+    EXPECT_EQ(model.mesh.positions[0].z, 0.3f);
+    EXPECT_EQ(model.mesh.positions[0].x, -1.0f);
+    // Near the origin, or on both sides of it, floats are what they were.
+    EXPECT_EQ(read("v 3 0 0\nv 4 0 0\nv 3 1 0\nf 1 2 3\n").origin, (Vec3d{}));
+    // One file that has both: what merges is told.
+    const ObjModel torn = read(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5400000.3 0 0\nv 5400000.4 0 0\nv 5400000.3 1 0\nf 1 2 3\nf 4 5 6\n");
+    ASSERT_EQ(torn.notes.size(), 1u);
+    EXPECT_NE(torn.notes[0].find("1 of 2 triangles collapse"), std::string::npos) << torn.notes[0];
+}
+
+TEST(ObjFile, MaterialsThatAreReplacedNeedNotBeThere) {
+    const TemporaryFolder folder;
+    folder.write("c.mtl", "newmtl x\nmap_Kd gone.jpg\nnewmtl y\n");
+    const FileAccess access{folder.path, {}};
+    const auto load = [&](const std::string& head, const std::string& faces, const ObjOptions& options) {
+        return load_obj(folder.write("a.obj", head + triangle + faces), access, Limits{}, options);
+    };
+    ObjOptions none, x_replaced;
+    none.materials = false;
+    x_replaced.replaced = {"x"};
+    for (const char* head : {"mtllib gone.mtl\n", "", "mtllib c.mtl\n"}) {
+        const std::string faces = "usemtl x\nf 1 2 3\n";
+        EXPECT_THROW(load(head, faces, {}), InputError) << head;
+        EXPECT_EQ(load(head, faces, none).mesh.material, std::vector<std::uint32_t>{0}) << head;
+        EXPECT_EQ(load(head, faces, x_replaced).materials.at(0).name, "x") << head;
+    }
+    const std::string both = "usemtl x\nf 1 2 3\nusemtl y\nf 1 2 3\n";
+    EXPECT_EQ(load("mtllib c.mtl\n", both, x_replaced).materials.size(), 2u);
+    EXPECT_THROW(load("mtllib gone.mtl\n", both, x_replaced), InputError);  // y is wanted
+}
+
+TEST(ObjFile, BackslashesBetweenFolders) {
+    const TemporaryFolder folder;
+    folder.write("sub/m.mtl", "newmtl x\nKd 1 0 0\n");
+    const auto file =
+        folder.write("a.obj", std::string("mtllib sub\\m.mtl\n") + triangle + "usemtl x\nf 1 2 3\n");
+    EXPECT_EQ(load_obj(file, FileAccess{folder.path, {}}, Limits{}).materials.at(0).base_color,
+              (Vec3f{1, 0, 0}));
+}
+
 TEST(ObjFile, EmptyAndDegenerateModelsAreModels) {
     EXPECT_TRUE(read("").mesh.triangles.empty());
     EXPECT_TRUE(read("# nothing\nv 1 2 3\n").mesh.positions.empty());

@@ -179,6 +179,7 @@ std::vector<Witness> witnesses() {
         {Quirk::byte_order_mark, "\xEF\xBB\xBF" + corners + face, ""},
         {Quirk::joined_lines, corners + "f 1 \\\n2 3\n", ""},
         {Quirk::comment_behind, corners + "f 1 2 3 # door\n", ""},
+        {Quirk::empty_slots, corners + "f 1// 2// 3//\n", ""},
         {Quirk::other_blanks, corners + "f 1\v2\f3\n", ""},
         {Quirk::blank_in_name, library + corners + "usemtl m n\n" + face,
          "newmtl m n\nKd 1 0 0\n" + rest_of_mtl},
@@ -191,8 +192,8 @@ std::vector<Witness> witnesses() {
         {Quirk::objects_and_groups, "o house\ng roof\n" + corners + face, ""},
         {Quirk::number_range, "v 0 0 0e500\nv 1 0 0\nv 0 1 0\n" + face, ""},
         {Quirk::nul_byte, corners + face + std::string("o a\0b\n", 6) + face, ""},
-        {Quirk::lone_return, corners + "# old\rf 1 2 3\n", ""},
-        {Quirk::comment_joins, corners + "# C:\\\n" + face + face, ""},
+        {Quirk::name_comment, used, "newmtl m # paint\nKd 1 0 0\n" + rest_of_mtl},
+        {Quirk::short_option, used, red + "map_Kd -s 1 -o 0 0 t.png\n"},
     };
 }
 

@@ -6,6 +6,7 @@
 
 #include "app/scene/keyframes.h"
 #include "app/scene/scene_file.h"
+#include "app/scene/stereo_settings.h"
 
 namespace obscura {
 namespace {
@@ -117,6 +118,63 @@ light = [{id = "l", frame = 0, irradiance_w_m2 = 9}, {id = "l", frame = 1, irrad
     EXPECT_EQ(vec3(light_at(scene, light, 1.5), "irradiance_w_m2"), (Vec3d{0, 0, 0}));
     EXPECT_EQ(vec3(light_at(scene, light, 0), "irradiance_w_m2"), (Vec3d{9, 9, 9}));
     EXPECT_EQ(vec3(light, "irradiance_w_m2"), (Vec3d{3, 3, 3})) << "the document itself does not move";
+}
+
+TEST(Keyframes, DatesStayInTheYearsOfTheirKey) {
+    // A smooth curve swings beyond its last keyframes.
+    const SceneDocument scene = read_scene_text(R"(format = 1
+camera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}
+[[light]]
+id = "l"
+type = "sun"
+latitude_deg = 48
+longitude_deg = 16
+time = 2190-06-21T12:00:00Z
+[frames]
+interpolation = "smooth"
+light = [{id = "l", frame = 0, time = 1800-01-01T00:00:00-11:00},
+         {id = "l", frame = 1, time = 2200-12-31T23:59:59+11:00},
+         {id = "l", frame = 2, time = 2200-12-31T23:59:59+11:00}]
+)",
+                                                "s.toml");
+    const SceneTable& light = *subtables(scene.root, "light").at(0);
+    for (int i = 0; i <= 20; ++i) {
+        const int year = date_time(light_at(scene, light, 0.1 * i), "time").year;
+        EXPECT_TRUE(year >= 1800 && year <= 2200) << year;
+    }
+}
+
+TEST(SceneFile, LeapSecondsAreTheNextMinute) {
+    const auto time_of = [](const std::string& time) {
+        const std::string text =
+            std::string(
+                "format = 1\ncamera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]} # 2016-12-31T23:59:60Z\n"
+                "light = [{id = \"l\", type = \"sun\", latitude_deg = 48, longitude_deg = 16, time = ") +
+            time + "}]\n";
+        return date_time(*subtables(read_scene_text(text, "s.toml").root, "light").at(0), "time");
+    };
+    EXPECT_EQ(time_of("2016-12-31T23:59:60Z"), (DateTime{2017, 1, 1, 0, 0, 0, 0, true, 0}));
+    EXPECT_EQ(time_of("2017-01-01 00:59:60.25+01:00"),
+              (DateTime{2017, 1, 1, 1, 0, 0, 250'000'000, true, 60}));
+    EXPECT_EQ(time_of("2016-12-31T23:59:59Z"), (DateTime{2016, 12, 31, 23, 59, 59, 0, true, 0}));
+    const SceneDocument scene = read_scene_text(
+        "format = 1\ncamera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}\n"
+        "[[light]]\nid = \"l\"\ntype = \"sun\"\nlatitude_deg = 48\nlongitude_deg = 16\n"
+        "time = 2016-12-31T23:59:60Z\n[[frames.light]]\nid = \"l\"\nframe = 1\n"
+        "time = 2015-06-30T23:59:60Z\n[[frames.light]]\nid = \"l\"\nframe = 2\ntime = "
+        "2016-12-31T23:59:59Z\n",
+        "s.toml");
+    EXPECT_EQ(date_time(*subtables(subtable(scene.root, "frames"), "light").at(0), "time").year, 2015);
+    EXPECT_EQ(date_time(*subtables(subtable(scene.root, "frames"), "light").at(0), "time").month, 7);
+}
+
+TEST(StereoLimits, ComfortKeepsToItsSideOfTheScreen) {
+    // From so near, no eye can turn in far enough.
+    const SceneDocument document = read_scene_text(
+        "format = 1\ncamera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}\n"
+        "stereo = {viewing_distance_m = 1e-20, comfort_far_deg = 0}\n",
+        "s.toml");
+    EXPECT_LE(stereo_settings(document, Scene{}, 1, {}).edit.comfort.farthest_px, 0);
 }
 
 TEST(Keyframes, TimesRunThroughMidnightAndMonths) {

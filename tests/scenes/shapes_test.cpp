@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/build.h"
+#include "scenes/polygon.h"
 #include "tests/core/mesh_checks.h"
 
 namespace obscura {
@@ -114,6 +115,33 @@ TEST(Shapes, ArchStripIsClosedAndHasItsVolume) {
     const Mesh mesh = strip(lower, upper, 0, 0.5);
     expect_one_solid(mesh);
     EXPECT_NEAR(volume(mesh), 0.5 * pi / 2 * (1.25 * 1.25 - 1), 1e-3);
+}
+
+TEST(Shapes, NosesOnOneLineAreCutToo) {
+    // The profile of a flight of stairs; rounding makes its noses turn either way.
+    for (const double going : {0.1, 0.104, 0.12, 0.298, 1.0 / 3}) {
+        for (const double rise : {0.06, 0.165, 0.471}) {
+            const int steps = 12;
+            std::vector<Vec2d> profile{{0, 0}, {steps * going, 0}};
+            for (int i = steps; i > 0; --i) {
+                profile.push_back({i * going, i * rise});
+                profile.push_back({(i - 1) * going, i * rise});
+            }
+            profile.pop_back();
+            profile.push_back({0, rise});
+            double area = 0;
+            const std::vector<Triangle> triangles = triangulate(profile);
+            for (const Triangle& t : triangles) {
+                const Vec2d a = profile[t.v[0]], b = profile[t.v[1]], c = profile[t.v[2]];
+                const double twice = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+                EXPECT_GT(twice, 0.01 * going * rise);
+                area += 0.5 * twice;
+            }
+            EXPECT_EQ(triangles.size(), 2u * steps);
+            EXPECT_NEAR(area, 0.5 * steps * (steps + 1) * going * rise, 1e-9);
+            expect_one_solid(extrude(profile, -1, 1));
+        }
+    }
 }
 
 TEST(Shapes, BentTubeIsClosed) {
