@@ -19,7 +19,7 @@ struct FileAccess {
     std::filesystem::path root;
     std::vector<std::filesystem::path> allowed;  ///< further folders (--allow-path)
     bool allow_missing = false;  ///< mesh files go on without materials and textures that are not there
-    std::shared_ptr<ReadFiles> read = nullptr;   ///< takes down every file that is found, if anybody asks
+    std::shared_ptr<ReadFiles> read = nullptr;  ///< takes down every file that is found, if anybody asks
 };
 
 /// The InputError of a file that is not there, for callers that can do without it.
