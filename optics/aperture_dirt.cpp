@@ -128,7 +128,8 @@ Loop scratch_loop(const LensDirt& d, const Square& square, int k) {
 Loop eyelash_loop(const LensDirt& d, const Square& square, int k) {
     ItemRandom random{static_cast<std::uint32_t>(k), eyelash_stream, static_cast<std::uint32_t>(d.seed)};
     const double place = (k + 0.5 + 0.9 * (random.next() - 0.5)) / d.eyelashes;
-    const double clump = std::min(1.0, (k / 3 * 3 + 1.5) / d.eyelashes);
+    const int first_of_three = k / 3 * 3;
+    const double clump = std::min(1.0, (first_of_three + 1.5) / d.eyelashes);
     const double side = 2 * place - 1;  // -1 left, 1 right
     // The lid is an arc: lower at the sides. Roots lie on the border or beyond.
     const Vec2d root = square.at(place, -0.06 + 0.06 * side * side);

@@ -87,10 +87,10 @@ FarFieldReport compute_mirrored(const Aperture& aperture, const FrequencyGrid& g
         return wanted != nullptr ? Image<float>(half->grid.width, half->grid.height) : Image<float>();
     };
     Image<float> part_re = part(re), part_im = part(im), part_power = part(power);
-    const FarFieldReport report = compute(aperture, half->grid, params, nullptr,
-                                          target_of(re ? &part_re : nullptr, im ? &part_im : nullptr,
-                                                    power ? &part_power : nullptr, half->grid.width),
-                                          exec);
+    FarFieldReport report = compute(aperture, half->grid, params, nullptr,
+                                    target_of(re ? &part_re : nullptr, im ? &part_im : nullptr,
+                                              power ? &part_power : nullptr, half->grid.width),
+                                    exec);
     if (re != nullptr) unfold(*half, part_re.view(), 1, *re, exec);
     if (im != nullptr) unfold(*half, part_im.view(), -1, *im, exec);
     if (power != nullptr) unfold(*half, part_power.view(), 1, *power, exec);

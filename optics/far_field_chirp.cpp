@@ -140,11 +140,10 @@ void sum_columns(const RowSums& sums, int width, const FrequencyRamp& ramp, int 
                      table_im.data() + 16 * right);
     // The integral from 0 to -x is minus the conjugate of that from 0 to x.
     for (int x = 0; x < right; ++x) {
-        for (int lane = 0; lane < 16; ++lane) {
-            table_re[static_cast<std::size_t>(16 * x + lane)] =
-                0.0f - table_re[static_cast<std::size_t>(16 * (width - x) + lane)];
-            table_im[static_cast<std::size_t>(16 * x + lane)] =
-                table_im[static_cast<std::size_t>(16 * (width - x) + lane)];
+        const auto to = 16 * static_cast<std::size_t>(x), from = 16 * static_cast<std::size_t>(width - x);
+        for (std::size_t lane = 0; lane < 16; ++lane) {
+            table_re[to + lane] = 0.0f - table_re[from + lane];
+            table_im[to + lane] = table_im[from + lane];
         }
     }
     OBSCURA_DISPATCH(isa, run_sums16, sums.runs.table(), table_re.data(), re.data());

@@ -116,6 +116,7 @@ Image<float> pupil_power(const Pupil& pupil, const FrequencyGrid& grid, const Ex
     Image<float> power = far_field_power(pupil.aperture, grid, pupil.far_field, exec);
     if (!pupil.coverage) return power;
     std::vector<float> gain;
+    gain.reserve(static_cast<std::size_t>(grid.width));
     for (int x = 0; x < grid.width; ++x)
         gain.push_back(static_cast<float>(coverage_gain(grid.first_u + x * grid.step_u)));
     parallel_blocks(static_cast<std::size_t>(grid.height), 64, exec, [&](std::size_t begin, std::size_t end) {

@@ -114,6 +114,7 @@ Mesh spandrels(const ArcadeParams& p, double radius, double springing, double to
     }
     lower.push_back({half_length, springing});
     std::vector<Vec2d> upper;
+    upper.reserve(lower.size());
     for (const Vec2d q : lower)
         upper.push_back({q.x, top});
     return strip(lower, upper, -0.5 * p.wall_m, 0.5 * p.wall_m, 20);

@@ -69,6 +69,7 @@ void write_anchors(const MiddleView& view, const ClassMap& map, const std::vecto
                    const EditParams& params, const Exec& exec, DisparitySystem& system) {
     const int width = view.width();
     std::vector<double> distance;
+    distance.reserve(static_cast<std::size_t>(width));
     for (int x = 0; x < width; ++x)
         distance.push_back(border_distance(view, x));
     parallel_blocks(static_cast<std::size_t>(view.height()), 16, exec,

@@ -43,7 +43,8 @@ void extend_seen_triangles(const SeenChange& seen, std::span<const Triangle> tri
             AffineFit fit;
             for (const std::uint32_t pixel : pixels.of(list[i])) {
                 const auto width = static_cast<std::uint32_t>(seen.view.width());
-                fit.add({pixel % width + 0.5, pixel / width + 0.5}, static_cast<double>(seen.at(pixel)), 1);
+                const std::uint32_t x = pixel % width, y = pixel / width;
+                fit.add({x + 0.5, y + 0.5}, static_cast<double>(seen.at(pixel)), 1);
             }
             for (int k = 0; k < 3; ++k) {
                 const MapPoint& at = points[triangles[list[i]].v[k]].map;

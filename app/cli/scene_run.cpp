@@ -19,6 +19,7 @@ std::vector<int> frames_of(const SceneRun& run, const SceneDocument& document) {
     const FrameRange range = scene_frames(document);
     if (!run.frames.empty()) return frame_values("--frames", run.frames, range);
     std::vector<int> frames;
+    frames.reserve(static_cast<std::size_t>(range.count()));
     for (int i = 0; i < range.count(); ++i)
         frames.push_back(range.at(i));
     return frames;

@@ -42,6 +42,7 @@ std::vector<std::vector<std::uint64_t>> collect_tile(const TileScene& tiles, std
         });
     }
     std::vector<std::vector<std::uint64_t>> words;
+    words.reserve(squares.size());
     for (SquareSet& of_light : squares)
         words.push_back(of_light.take_words());
     return words;

@@ -6,7 +6,8 @@ namespace obscura {
 
 FrequencyGrid centred_grid(int width, int height, double step, double centre_u, double centre_v) {
     CHECK(width > 0 && height > 0 && step > 0);
-    return {width, height, centre_u - (width / 2) * step, centre_v - (height / 2) * step, step, step};
+    const int left = width / 2, above = height / 2;
+    return {width, height, centre_u - left * step, centre_v - above * step, step, step};
 }
 
 FrequencyGrid half_grid(int width, int height, double step) {

@@ -13,7 +13,7 @@ namespace {
 struct Run {
     std::int32_t first, last;
     float value;
-    auto operator<=>(const Run&) const = default;
+    auto operator<=>(const Run&) const = default;  // NOLINT(modernize-use-nullptr): of clang-tidy 14 alone
 };
 using Runs = std::vector<Run>;
 

@@ -60,7 +60,8 @@ LevelSum own_sum(const LevelCells& cells, int period_u, int period_v, const Exec
     sum.re.reset(size);
     sum.im.reset(size);
     const double step_u = 1.0 / period_u, step_v = 1.0 / period_v;
-    const FrequencyGrid grid{sum.columns, sum.period_v, 0, -(sum.period_v / 2) * step_v, step_u, step_v};
+    const int above = sum.period_v / 2;
+    const FrequencyGrid grid{sum.columns, sum.period_v, 0, -above * step_v, step_u, step_v};
     SeparableParams params;
     params.points = true;
     separable_field(cells.terms, grid, params, {sum.re.data(), sum.im.data(), nullptr, sum.columns}, exec);

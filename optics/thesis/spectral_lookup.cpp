@@ -41,6 +41,7 @@ Taps taps_at(double place, int size, Interpolation interpolation) {
 std::vector<Taps> taps_along(double first, double step, int count, double scale, double from_first,
                              double from_step, int from_size, Interpolation interpolation) {
     std::vector<Taps> taps;
+    taps.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
         taps.push_back(
             taps_at(((first + i * step) * scale - from_first) / from_step, from_size, interpolation));

@@ -2,7 +2,7 @@
 # One source file after the other, without the precompiled headers: what changed lately first, until time is up.
 #   file_by_file.sh includes BUILD_DIR SOURCE_DIR SECONDS  every file compiles with the includes it names itself
 #   file_by_file.sh tidy BUILD_DIR SOURCE_DIR SECONDS      clang-tidy 14 with the rules of .clang-tidy: core, raster,
-#       hierarchy and filters whole, however long it takes; of the other rooms what changed, until time is up
+#       hierarchy and filters whole, however long it takes; of optics, stereo and scenes what changed, until time is up
 #   file_by_file.sh self-test CXX
 # BUILD_DIR is made for it: a release build that is configured with OBSCURA_PRECOMPILE=OFF and never built. Changed
 # is what differs from the last commit or was in a commit of the last day before it, and the sources that include such
@@ -68,7 +68,8 @@ run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
         # Not kernels, which are built once per instruction set; not image_io.cpp, which holds all of stb.
         local not='_kernel\.cpp'$'\t''|/image_io\.cpp'$'\t' rooms="^$PWD/(core|raster|hierarchy|filters)/"
         grep -E "$rooms" "$work/all" | grep -vE "$not" >"$work/always"
-        grep -vE "$rooms" "$work/first" | grep -vE "$not" >"$work/timed"
+        # Of the others, these have been through as a whole once.
+        grep -E "^$PWD/(optics|stereo|scenes)/" "$work/first" | grep -vE "$not" >"$work/timed"
     else
         cat "$work/first" "$work/then" >"$work/timed"
     fi
