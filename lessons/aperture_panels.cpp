@@ -29,6 +29,16 @@ Image<float> binary_mask(ApertureKind kind, int size) {
     return reduce(make_aperture(shape, size, 0.01), 0, true).mask;
 }
 
+Image<float> behind_disc_at(Image<float> mask, Vec2d centre, double radius) {
+    for (int y = 0; y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x) {
+            const Vec2d from{x + 0.5 - centre.x, y + 0.5 - centre.y};
+            if (from.x * from.x + from.y * from.y <= radius * radius) mask(x, y) = 0;
+        }
+    }
+    return mask;
+}
+
 int level_side(const QuadList& quads, std::size_t k) {
     return std::min(quads.width[k], quads.height[k]);
 }

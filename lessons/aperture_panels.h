@@ -1,5 +1,5 @@
 #pragma once
-// Apertures of lessons 9 to 12, and their quads as pictures.
+// Apertures of lessons 9 to 12 and 18, and their quads as pictures.
 
 #include <cstddef>
 #include <functional>
@@ -12,6 +12,9 @@ namespace obscura {
 
 /// A shape of 0.9 of the mask's width; texels are open where at least half of them is.
 Image<float> binary_mask(ApertureKind kind, int size);
+
+/// The mask behind an opaque disc, both in texels: closed where a texel's centre is.
+Image<float> behind_disc_at(Image<float> mask, Vec2d centre, double radius);
 
 /// Side of the squares of the level that wrote quad k.
 int level_side(const QuadList& quads, std::size_t k);

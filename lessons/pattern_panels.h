@@ -1,5 +1,5 @@
 #pragma once
-// Panels of lessons 9 to 12: patterns on a scale of colours, masks.
+// Panels of lessons 9 to 12 and 18: patterns on a scale of colours, masks.
 
 #include <string_view>
 

@@ -31,6 +31,14 @@ Field field_of_runs(ImageView<const float> mask, const FrequencyGrid& grid, cons
     return field;
 }
 
+Field field_anew(const Image<float>& mask, const FrequencyGrid& grid, const Exec& exec) {
+    Aperture aperture;
+    aperture.mask = mask;
+    Field field = empty_field(grid);
+    far_field_into(aperture, grid, {}, target_of(field), exec);
+    return field;
+}
+
 Image<float> power_of(const Field& field) {
     Image<float> power(field.re.width, field.re.height);
     for (std::size_t i = 0; i < power.pixels.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// Far fields as lesson 10 compares them: as a sum over quads, and by runs.
+// Far fields as lessons 10 and 18 compare them: as a sum over quads, by runs, and as the planner has it.
 
 #include "core/isa.h"
 #include "optics/far_field.h"
@@ -12,6 +12,9 @@ Field field_of_quads(const QuadList& quads, const FrequencyGrid& grid, const Exe
 
 /// Runs of rows by their ends, then FFTs over the rows.
 Field field_of_runs(ImageView<const float> mask, const FrequencyGrid& grid, const Exec& exec);
+
+/// What the planner chooses; the bits that update_far_field() starts from.
+Field field_anew(const Image<float>& mask, const FrequencyGrid& grid, const Exec& exec);
 
 Image<float> power_of(const Field& field);
 

@@ -32,6 +32,7 @@
 #include "lessons/stereo_panels.h"
 #include "lessons/stereo_scene.h"
 #include "lessons/tree_scene.h"
+#include "optics/far_field_progress.h"
 
 #include "stereo/disparity.h"
 #include "stereo/thesis/cascade.h"
@@ -45,7 +46,7 @@ constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd
                             "a622c68fa6df36e5", "dd1d1daba66836c0", "bad0f240905ab4ef", "978e552047151592",
                             "bcc896970de58f40", "eae4629398c439fa", "bb4e9518dd83ec37", "7056af887b90afa2",
                             "294c403290cf5138", "eca675ed3ef3a2ad", "b3d6e1c69a6bfb32", "7a00fbcb5e569ae9",
-                            "1a908cd6c3f6b537"};
+                            "1a908cd6c3f6b537", "da45501cfd5e7812"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
@@ -334,6 +335,35 @@ TEST(Lessons, LessonSeventeensTrianglesFollowTheMapOnceCut) {
     EXPECT_LT(whole.within, 0.9);
     EXPECT_EQ(whole.triangles_out, whole.triangles_in);
     EXPECT_LT(cut.triangles_out, 2 * cut.triangles_in);
+}
+
+/// Lesson 18: a disc that moves a little is a few quads and a few columns of the mask's, and the kept field
+/// stays as near to one made anew as it says; one that turns everything over is not worth adding.
+TEST(Lessons, LessonEighteensFieldIsKeptWhileThatIsCheaper) {
+    const Image<float> iris = binary_mask(ApertureKind::iris, 128);
+    const auto mask_at = [&](double x, double radius = 14) {
+        return behind_disc_at(iris, {x, 44 + 0.5 * x}, radius);
+    };
+    FarFieldProgress progress;
+    progress.grid = centred_grid(256, 256, 1.0 / 512);
+    EXPECT_TRUE(update_far_field(progress, mask_at(40).view(), {}).refreshed);
+    int anew = 0;
+    for (int x = 41; x < 80; ++x) {
+        const Image<float> mask = mask_at(x);
+        EXPECT_LT(difference_quads(progress.mask.view(), mask.view()).size(),
+                  quads_of(mask.view()).size() / 4);
+        const ProgressReport report = update_far_field(progress, mask.view(), {});
+        anew += report.refreshed ? 1 : 0;
+        const double error = largest_difference(progress.field, field_anew(mask, progress.grid, {}));
+        EXPECT_LE(error, 1e-6 * open_area(mask.view())) << x;
+        EXPECT_EQ(report.refreshed, error == 0) << x;
+    }
+    EXPECT_GT(anew, 0);
+    EXPECT_LT(anew, 6);
+    update_far_field(progress, mask_at(40, 28).view(), {});
+    const ProgressReport jump = update_far_field(progress, mask_at(72, 28).view(), {});
+    EXPECT_TRUE(jump.refreshed);
+    EXPECT_GT(jump.update_ms, jump.refresh_ms);
 }
 
 TEST(Lessons, AnUnknownNumberIsAUsageError) {
