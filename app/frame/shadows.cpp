@@ -109,6 +109,12 @@ void check_found(const Work& work, const std::vector<std::optional<FoundResoluti
                      work.scene.limits, "the frame");
 }
 
+/// Whether a surface may ask for shadows that is in no map: then intervals must hold for any receiver.
+bool has_other_receivers(const Scene& scene) {
+    const auto& objects = scene.mesh.objects;
+    return std::any_of(objects.begin(), objects.end(), [](const Object& o) { return !o.casts_shadow; });
+}
+
 /// Settles what each light's shadow shall be; those that an earlier frame made are marked kept.
 void plan_shadows(const Work& work) {
     const auto found = auto_resolutions(work.scene, work.pictures, work.exec);
@@ -119,6 +125,7 @@ void plan_shadows(const Work& work) {
         SceneLight light = work.scene.lights[i];
         if (!casts_shadows(light)) continue;
         if (found[i]) light.shadow.resolution = found[i]->resolution;
+        if (has_other_receivers(work.scene)) light.shadow.receivers = Receivers::any;
         if (used == shadows.size()) shadows.emplace_back();
         LightShadow& shadow = shadows[used++];
         if (found[i] && found[i]->capped && !(shadow.stats.found && shadow.stats.found->capped)) {

@@ -219,5 +219,28 @@ TEST(CoincidentShadows, NothingInsideASolidIsLitFromOutside) {
     }
 }
 
+/// What casts none receives all the same: it is in no map, so no interval may reach down to it.
+TEST(CoincidentShadows, FallOnWhatCastsNone) {
+    for (const bool fin : {false, true}) {
+        Scene scene = empty_scene(96, 72);
+        Mesh canopy = plane(2, 2);
+        if (fin) {
+            Mesh back = canopy;
+            for (Triangle& t : back.triangles)
+                std::swap(t.v[1], t.v[2]);
+            append_mesh(canopy, back);
+        }
+        add(scene, canopy, 0, {0, 2, 0});
+        add(scene, plane(6, 6), 0);
+        scene.mesh.objects[scene.mesh.object.back()].casts_shadow = false;
+        scene.camera.eye = {3, 5, 5};
+        scene.camera.look_at = {0, 0.5, 0};
+        scene.lights.push_back(directional({0.2, -1, 0.1}, {1, 1, 1}, 3, 1024));
+        int lit = 0, dark = 0;
+        expect_agreement(scene, 0.05, lit, dark);
+        EXPECT_GT(dark, 500) << "fin " << fin;
+    }
+}
+
 }  // namespace
 }  // namespace obscura
