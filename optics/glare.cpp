@@ -52,7 +52,9 @@ std::vector<std::vector<Source>> take_sources(ImageView<Vec3f> picture, const Gl
             if (!finite || !(static_cast<double>(largest) > clip)) continue;
             const std::size_t k = kernels.choice.data == nullptr ? 0 : kernels.choice(x, y);
             CHECK(k < sources.size(), "a pixel chose a kernel that is not there");
-            const float share = glaring_share(largest, clip);
+            // What has a kernel of its own (a lamp partly hidden or out of focus) passes through that as a
+            // whole.
+            const float share = k == 0 ? glaring_share(largest, clip) : 1.0f;
             const Vec3f light = Vec3f{std::max(p.x, 0.0f), std::max(p.y, 0.0f), std::max(p.z, 0.0f)} * share;
             sources[k].push_back({x, y, light});
             p = p - light;

@@ -18,8 +18,8 @@ namespace obscura {
 
 struct GlareParams {
     /// Radiance from which on a pixel (its largest channel) glares: a growing share of its light, all of it
-    /// from twice as much on, so that a sky that passes the level shows no contour. Exposure is the caller's
-    /// to take out. Above 0.
+    /// from twice as much on, so that a sky that passes the level shows no contour. Pixels with a kernel of
+    /// their own glare as a whole. Exposure is the caller's to take out. Above 0.
     double clip = 1;
     /// 1, 2, 4 or 8: what lies farther than 2 to 4 bloom_scale pixels from a source is computed at 1 /
     /// bloom_scale of the resolution, and interpolated.
