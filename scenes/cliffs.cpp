@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/error.h"
 #include "scenes/generators.h"
@@ -55,27 +56,28 @@ struct Grid {
 
 Grid coast_of(const CliffsParams& p) {
     const double h = p.height_m;
+    const std::int64_t seed = p.seed;  // sums may pass the largest int
     Grid grid{p.columns + 1, p.rows + 1, {}};
     for (int j = 0; j <= p.rows; ++j) {
         for (int i = 0; i <= p.columns; ++i) {
             const double x = p.width_m * (static_cast<double>(i) / p.columns - 0.5);
             const double ledge =
-                std::clamp(0.3 + 1.4 * value_noise({x / (0.8 * h), 1.5, 2.5}, p.seed + 5), 0.0, 1.0);
+                std::clamp(0.3 + 1.4 * value_noise({x / (0.8 * h), 1.5, 2.5}, seed + 5), 0.0, 1.0);
             Station s = station_at(static_cast<double>(j) / p.rows, ledge);
             // The ledge, and all between shore and rim with it, lies higher or lower along the coast.
             const double middle = std::clamp(4 * s.up * (1 - s.up), 0.0, 1.0);
-            s.up += 0.16 * middle * value_noise({x / (0.9 * h), 4.5, 1.5}, p.seed + 6);
+            s.up += 0.16 * middle * value_noise({x / (0.9 * h), 4.5, 1.5}, seed + 6);
             // Bays and headlands, then buttresses, which reach all the way up the face.
-            const double shore = p.meander_m * fractal_noise({x / (1.7 * h), 0.5, 0}, 2, p.seed);
-            const double buttress = 0.16 * h * value_noise({x / (0.45 * h), s.up * 0.7, 3.5}, p.seed + 10) +
-                                    0.07 * h * value_noise({x / (0.17 * h), s.up * 1.5, 7.5}, p.seed + 11);
+            const double shore = p.meander_m * fractal_noise({x / (1.7 * h), 0.5, 0}, 2, seed);
+            const double buttress = 0.16 * h * value_noise({x / (0.45 * h), s.up * 0.7, 3.5}, seed + 10) +
+                                    0.07 * h * value_noise({x / (0.17 * h), s.up * 1.5, 7.5}, seed + 11);
             const Vec3d q{x / (0.22 * h), s.up * 4.5, s.inland * 2};
-            const double crag = 0.085 * h * fractal_noise(q, 5, p.seed + 20);
+            const double crag = 0.085 * h * fractal_noise(q, 5, seed + 20);
             // Layers of harder rock stand out.
-            const double layer = 0.03 * h * value_noise({x / (2 * h), s.up * 13, 0.5}, p.seed + 30);
+            const double layer = 0.03 * h * value_noise({x / (2 * h), s.up * 13, 0.5}, seed + 30);
             const double push = s.rough * (p.roughness * (crag + layer) + buttress);
             const double lift = (0.25 * s.rough + 0.06) * 0.12 * h *
-                                fractal_noise({x / (0.5 * h), s.inland * 1.6, 9.5}, 4, p.seed + 40) *
+                                fractal_noise({x / (0.5 * h), s.inland * 1.6, 9.5}, 4, seed + 40) *
                                 std::min(1.0, std::max(0.0, s.up * 5));
             grid.points.push_back({x, s.up * h + lift, shore - s.inland * h + push});
         }
@@ -85,10 +87,11 @@ Grid coast_of(const CliffsParams& p) {
 
 /// What the ground is made of at q with the smooth normal n.
 std::uint32_t slot_at(Vec3d q, Vec3d n, const CliffsParams& p) {
-    const double up = q.y / p.height_m, chance = fractal_noise(q * (7 / p.height_m), 3, p.seed + 50);
+    const std::int64_t seed = p.seed;
+    const double up = q.y / p.height_m, chance = fractal_noise(q * (7 / p.height_m), 3, seed + 50);
     if (n.y > 0.62 + 0.05 * chance && up < 0.06 + 0.012 * chance) return 3;
     if (n.y > 0.80 + 0.07 * chance && up > 0.3) return 2;
-    const double band = value_noise({q.x * 0.4 / p.height_m, up * 9 + 0.3 * chance, 0.5}, p.seed + 60);
+    const double band = value_noise({q.x * 0.4 / p.height_m, up * 9 + 0.3 * chance, 0.5}, seed + 60);
     return up > 0.15 + 0.04 * chance && band > 0.12 ? 1 : 0;
 }
 

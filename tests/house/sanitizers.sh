@@ -27,7 +27,7 @@ cmake --build "$build" --target $programs >"$build/log" 2>&1 || { tail -n 60 "$b
 run() {  # run PROGRAM FILTER
     local found log="$build/$1.log"
     found=$(find "$build/tests" -name "$1" -type f)
-    if ! (cd "$build" && UBSAN_OPTIONS=print_stacktrace=1 timeout 300 "$found" --gtest_brief=1 "--gtest_filter=$2") >"$log" 2>&1; then
+    if ! (cd "$build" && UBSAN_OPTIONS=print_stacktrace=1 timeout 900 "$found" --gtest_brief=1 "--gtest_filter=$2") >"$log" 2>&1; then
         echo "FAILED: $1 --gtest_filter=$2"
         cat "$log"
         return 1
