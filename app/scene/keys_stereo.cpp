@@ -1,5 +1,6 @@
 // Keys of the two eyes and of the edits to what they see.
 
+#include "app/scene/key_ranges.h"
 #include "app/scene/keys.h"
 #include "app/scene/stereo_rows.h"
 
