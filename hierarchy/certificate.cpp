@@ -14,9 +14,7 @@ float ulp(float z) {
     return std::nextafterf(z, 2.0f) - z;
 }
 
-bool same_plane(const Layer& p, const Layer& q) {
-    if (p.plane == nullptr || q.plane == nullptr) return false;
-    const TriangleRecord &s = *p.plane, &t = *q.plane;
+bool same_plane(const TriangleRecord& s, const TriangleRecord& t) {
     return std::tie(s.a, s.b, s.c, s.zmin, s.zmax) == std::tie(t.a, t.b, t.c, t.zmin, t.zmax);
 }
 
@@ -92,9 +90,7 @@ bool Judge::covers_first_texel(const Listed& l, const Square& square) const {
 void Judge::add_to(Group& g, const Listed& l, const Square& square) const {
     const TriangleRecord& plane = set_.plane(set_.facets[l.facet]);
     if (g.plane == nullptr) g.plane = &plane;
-    g.one_plane =
-        g.one_plane && (std::tie(g.plane->a, g.plane->b, g.plane->c, g.plane->zmin, g.plane->zmax) ==
-                        std::tie(plane.a, plane.b, plane.c, plane.zmin, plane.zmax));
+    g.one_plane = g.one_plane && same_plane(*g.plane, plane);
     g.low = std::min(g.low, l.low);
     g.high = std::max(g.high, l.high);
     g.weight += covers_first_texel(l, square);
@@ -216,7 +212,8 @@ Judge::Course Judge::up_to_next(const Square& square) {
     c.exact = c.first.weight == 1;
     // Coincident sheets are one surface.
     std::size_t next = 1;
-    while (next < end && same_plane(c.first, layers_[next]))
+    // (In order they all have planes: put_in_order() saw to it.)
+    while (next < end && same_plane(*c.first.plane, *layers_[next].plane))
         ++next;
     if (next == layers_.size()) {
         c.exact = c.exact && least_uncertain_ > 1.0f;

@@ -68,13 +68,14 @@ bool worth_telling(const FrameReport& report, const RenderPlan& plan, const Scen
 }
 
 /// All frames, one after the other; each uses all threads.
-void render_frames(const RenderPlan& plan, Scene& scene, const SceneRun& run, RenderReport& report) {
+void render_frames(const RenderPlan& plan, Scene& scene, const FileAccess& access, const SceneRun& run,
+                   RenderReport& report) {
     Progress progress(stderr, Progress::style_for(stderr, run.quiet));
     FrameOptions options = plan.frame_options;
     options.cancel = &stop_requested();
     options.progress = [&](double fraction) { progress.update(fraction); };
     FrameCache cache;
-    cache.access = FileAccess{plan.document.folder, run.allowed_paths};
+    cache.access = access;
     Frame frame;
     const auto say_notes = [&](const std::vector<std::string>& notes) {
         if (run.quiet || notes.empty()) return;
@@ -133,7 +134,7 @@ int render_command(const RenderOptions& options) {
 
     // From here on there are results to lose: a signal lets the current file finish.
     set_signal_policy(OnSignal::ask_to_stop);
-    render_frames(plan, scene, run, report);
+    render_frames(plan, scene, access, run, report);
     report.run.total_s = watch.seconds();
     write_stats(run.stats_json, stats_json(report), run.existing());
     return 0;
