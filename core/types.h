@@ -8,8 +8,8 @@
 namespace obscura {
 
 /// Closed interval of light-space depths: every stored depth inside it gives the same shadow test for every
-/// receiver outside solids (Scandolo, Bauszat, Eisemann 2016, section 3). 0 <= entry <= exit <= 1;
-/// [1, 1] is background.
+/// receiver that may ask (Scandolo, Bauszat, Eisemann 2016, section 3: any outside solids; raster/intervals.h
+/// has the scene's own surfaces, too). 0 <= entry <= exit <= 1; [1, 1] is background.
 struct DepthInterval {
     float entry = 1.0f, exit = 1.0f;
     friend bool operator==(const DepthInterval&, const DepthInterval&) = default;
