@@ -12,6 +12,7 @@
 #include "core/buffer.h"
 #include "core/image.h"
 #include "core/vec.h"
+#include "raster/exact/exact.h"
 #include "raster/layers.h"
 
 namespace obscura {
@@ -58,6 +59,7 @@ struct FrameStats {
     std::int64_t bin_items = 0;            ///< triangle-tile pairs
     std::int64_t samples = 0;              ///< taken
     std::int64_t covered_samples = 0;      ///< of these, on a surface
+    ExactCounts exact;                     ///< of exact shadows, all lights
     std::int64_t shadow_maps = 0;          ///< views rendered for this frame, not kept ones
     std::int64_t shadow_bytes = 0;         ///< all maps
     std::int64_t bytes = 0;                ///< estimate_memory(), checked before the work

@@ -10,6 +10,7 @@
 #include "core/isa.h"
 #include "hierarchy/needed_nodes.h"
 #include "hierarchy/shadow_tree.h"
+#include "raster/exact/casters.h"
 #include "raster/shadow_map.h"
 
 namespace obscura {
@@ -18,15 +19,16 @@ struct LightShadow {
     SceneLight light;  ///< what it was made for; its resolution as found
     Camera camera;     ///< and for this picture, when scope is "frame"
     RenderSettings render;
-    Bounds casters;  ///< caster_box() for the light's direction, when it is parallel
-    ShadowMap map;
-    std::vector<ShadowTree> trees;
+    Bounds casters;                 ///< caster_box() for the light's direction, when it is parallel
+    ShadowMap map;                  ///< method "map",
+    std::vector<ShadowTree> trees;  ///< "compressed"
+    std::vector<Casters> exact;     ///< or "exact"
     LightShadowStats stats;
 
-    bool empty() const { return map.views.empty() && trees.empty(); }
+    bool empty() const { return map.views.empty() && trees.empty() && exact.empty(); }
     const LightView& view(int i) const {
         const auto at = static_cast<std::size_t>(i);
-        return trees.empty() ? map.views[at] : trees[at].view;
+        return !exact.empty() ? exact[at].view : trees.empty() ? map.views[at] : trees[at].view;
     }
 };
 

@@ -28,6 +28,7 @@ struct LightShadowStats {
     std::optional<FoundResolution> found;  ///< resolution "auto"
     bool kept = false;                     ///< from the frame before
     bool from_cache = false;               ///< read from a file
+    std::int64_t casters = 0;              ///< exact: triangles, in all views together
     MultiresCounts nodes;
     std::uint64_t bytes = 0;  ///< of the map or the serialised trees, top grids included
     BuildStats build;

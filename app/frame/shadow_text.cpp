@@ -36,6 +36,12 @@ std::string smaller_tree_text(const ShadowSettings& shadow) {
 
 std::string shadow_text(const LightShadowStats& s) {
     std::string out = fmt::format("  light {}: ", s.light);
+    if (s.method == ShadowMethod::exact) {
+        return out +
+               fmt::format("exact, {} triangles, {}{}; order {:.3f} s, samples {:.3f} s (all threads)\n",
+                           s.casters, size_text(static_cast<std::int64_t>(s.bytes)), s.kept ? ", kept" : "",
+                           s.build.build_s, s.lookup_s);
+    }
     if (s.views > 1) out += fmt::format("{} maps of ", s.views);
     out += fmt::format("{} x {}", s.resolution, s.resolution);
     if (s.found) out += " (" + resolution_text(*s.found) + ")";

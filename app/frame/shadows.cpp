@@ -101,6 +101,17 @@ bool build_map(const Work& work, LightShadow& shadow) {
     return true;
 }
 
+void build_exact(const Work& work, LightShadow& shadow) {
+    const Stopwatch watch;
+    shadow.exact =
+        build_casters(work.scene.mesh, shadow.light.light, work.exec, work.cache.light_scratch.setup);
+    for (const Casters& view : shadow.exact) {
+        shadow.stats.casters += static_cast<std::int64_t>(view.count);
+        shadow.stats.bytes += static_cast<std::uint64_t>(view.bytes());
+    }
+    shadow.stats.build.build_s = watch.seconds();
+}
+
 /// Refuses resolutions that make the frame too large, before anything is built.
 void check_found(const Work& work, const std::vector<std::optional<FoundResolution>>& found) {
     std::vector<SceneLight> lights = work.scene.lights;
@@ -133,7 +144,7 @@ void plan_shadows(const Work& work) {
         }
         const LightShadowStats fresh = fresh_stats(light, found[i]);
         const bool every_picture =
-            light.shadow.method == ShadowMethod::map || light.shadow.scope == ShadowScope::full;
+            light.shadow.method != ShadowMethod::compressed || light.shadow.scope == ShadowScope::full;
         const bool kept = !shadow.empty() && same_shadow(shadow.light, light) &&
                           (every_picture || same_picture(shadow, work.scene.camera, work.scene.render));
         if (kept) {
@@ -142,6 +153,7 @@ void plan_shadows(const Work& work) {
             shadow.stats.lookup_s = 0;
         } else {
             shadow.trees.clear();
+            shadow.exact.clear();
             shadow.stats = fresh;
             if (light.shadow.method == ShadowMethod::map) {
                 shadow.map.views.clear();  // not valid until it is built; its memory is used again
@@ -179,6 +191,10 @@ std::vector<std::optional<std::vector<NeededNodes>>> needed_of_frame(const Work&
 bool build_shadow(const Work& work, const std::vector<std::optional<std::vector<NeededNodes>>>& needed,
                   std::size_t& next_needed, std::int64_t most_bytes, LightShadow& shadow) {
     if (shadow.light.shadow.method == ShadowMethod::map) return build_map(work, shadow);
+    if (shadow.light.shadow.method == ShadowMethod::exact) {
+        build_exact(work, shadow);
+        return true;
+    }
     if (shadow.light.shadow.scope == ShadowScope::full) return build_trees(work, nullptr, most_bytes, shadow);
     const auto& of_light = needed[next_needed++];
     if (!of_light) {
@@ -218,6 +234,10 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
     for (TileLight& light : tiles.lights) {
         if (!casts_shadows(work.scene.lights[light.scene_light])) continue;
         const LightShadow& shadow = work.cache.shadows[next++];
+        if (shadow.light.shadow.method == ShadowMethod::exact) {
+            light.exact = exact_light(shadow.light.light, shadow.exact, tiles.rays);
+            continue;
+        }
         if (shadow.light.shadow.method == ShadowMethod::map) {
             light.pcf = pcf_light(shadow.light, shadow.map, work.scene.camera.eye);
             continue;

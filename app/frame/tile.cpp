@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "app/frame/exact_tile.h"
 #include "core/stopwatch.h"
 #include "raster/depth_tile.h"
 #include "raster/resolve.h"
@@ -13,6 +14,15 @@ namespace obscura {
 namespace {
 
 constexpr int tile_samples = frame_tile_side * frame_tile_side;
+
+TileRect tile_of(int column, int row, SamplePosition sample) {
+    return {column * frame_tile_side,
+            row * frame_tile_side,
+            frame_tile_side,
+            frame_tile_side,
+            sample.x,
+            sample.y};
+}
 
 /// The part of a tile that the frame wants, in pixels of the tile.
 struct TileWindow {
@@ -109,12 +119,7 @@ void add_block(const ShadeBlock& shade, int first_row, bool first, TileWork& wor
 
 TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosition sample, Isa isa,
                          TileWork& work) {
-    const TileRect tile{column * frame_tile_side,
-                        row * frame_tile_side,
-                        frame_tile_side,
-                        frame_tile_side,
-                        sample.x,
-                        sample.y};
+    const TileRect tile = tile_of(column, row, sample);
     std::fill_n(work.depth, tile_samples, scene.view.max_depth);
     std::fill_n(work.triangle, tile_samples, no_triangle);
     const auto list = scene.bins->list(column, row);
@@ -142,21 +147,22 @@ void uncover_outside(int width, int rows, SurfaceBlock& surface) {
     }
 }
 
-void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work) {
+void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool shadow, TileWork& work) {
     OBSCURA_DISPATCH(isa, shade_begin, work.surface, scene.materials.data(), scene.sky, scene.rays,
                      work.shade);
     int with_shadow = 0;
     if (shadow) std::fill_n(work.shadow_sum, block_samples, 0.0f);
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         const TileLight& light = scene.lights[l];
+        if (light.exact) exact.tile->visibility(l, exact.k, exact.first_row, work.visibility);
         if (light.pcf) {
             const Stopwatch watch;
             OBSCURA_DISPATCH(isa, pcf_block, work.surface, *light.pcf, work.visibility);
             if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
         }
-        OBSCURA_DISPATCH(isa, shade_light, work.surface, light.shade, light.pcf ? work.visibility : nullptr,
-                         work.shade);
-        if (!shadow || !light.pcf) continue;
+        OBSCURA_DISPATCH(isa, shade_light, work.surface, light.shade,
+                         light.casts_shadows() ? work.visibility : nullptr, work.shade);
+        if (!shadow || !light.casts_shadows()) continue;
         ++with_shadow;
         for (int i = 0; i < block_samples; ++i)
             work.shadow_sum[i] += work.visibility[i];
@@ -167,21 +173,31 @@ void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work) {
 }
 
 std::int64_t render_tile(const TileScene& scene, int column, int row, const FrameOptions& options, Isa isa,
-                         TileWork& work, Frame& frame) {
+                         TileWork& work, ExactTile* exact, Frame& frame) {
     const bool channels = options.depth || options.normal || options.albedo || options.object ||
                           options.shadow || options.shift;
     const auto samples = static_cast<int>(scene.pattern.size());
     std::int64_t covered = 0;
-    TileRect tile;
-    TileWindow window{};
+    const TileRect whole = tile_of(column, row, {});
+    const TileWindow window = window_of(whole, frame);
+    const int begin_row = window.y0 / block_rows * block_rows;
+    const bool has_exact = scene.has_exact();
     for (int sample = 0; sample < samples; ++sample) {
-        tile =
-            tile_visibility(scene, column, row, scene.pattern[static_cast<std::size_t>(sample)], isa, work);
-        window = window_of(tile, frame);
-        for (int first_row = window.y0 / block_rows * block_rows; first_row < window.y1;
-             first_row += block_rows) {
+        const SamplePosition position = scene.pattern[static_cast<std::size_t>(sample)];
+        const TileRect tile = tile_of(column, row, position);
+        const int k = sample % exact_samples_together;
+        if (has_exact) {
+            if (k == 0) {
+                exact->run(scene, column, row, sample, std::min(exact_samples_together, samples - sample),
+                           begin_row, window.y1, isa, work);
+            }
+            exact->restore(k, work);
+        } else {
+            tile_visibility(scene, column, row, position, isa, work);
+        }
+        for (int first_row = begin_row; first_row < window.y1; first_row += block_rows) {
             block_surface(scene, tile, first_row, isa, work);
-            block_shade(scene, isa, options.shadow, work);
+            block_shade(scene, {exact, k, first_row}, isa, options.shadow, work);
             for (const std::uint32_t group : work.surface.covered)
                 covered += std::popcount(group);
             if (channels) write_channels(scene, tile, first_row, window, sample, work, options, frame);
@@ -194,7 +210,7 @@ std::int64_t render_tile(const TileScene& scene, int column, int row, const Fram
         }
     }
     if (samples > 1) {
-        write_pixels(tile, 0, frame_tile_side, window, work.r, work.g, work.b,
+        write_pixels(whole, 0, frame_tile_side, window, work.r, work.g, work.b,
                      1.0f / static_cast<float>(samples), isa, frame);
     }
     return covered;

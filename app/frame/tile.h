@@ -2,6 +2,7 @@
 // One 64 x 64 tile of a frame, stage by stage: visibility, surface, textures, shadow lookups, shading,
 // resolve. Between the stages lie plain buffers, so that a test, a lesson or a trace can stop there.
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <optional>
@@ -12,17 +13,23 @@
 #include "app/scene/scene.h"
 #include "filters/pcf.h"
 #include "raster/depth_map.h"
+#include "raster/exact/exact.h"
 #include "raster/gbuffer.h"
 #include "raster/sample_pattern.h"
 #include "raster/shade.h"
 
 namespace obscura {
 
+class ExactTile;
+
 /// A light that shines on this frame.
 struct TileLight {
     ShadeLight shade;
-    std::optional<PcfLight> pcf;  ///< none: casts no shadows
-    std::size_t scene_light = 0;  ///< index into Scene::lights
+    std::optional<PcfLight> pcf;      ///< shadows looked up in a map or in trees;
+    std::optional<ExactLight> exact;  ///< or of the samples themselves; neither: casts none
+    std::size_t scene_light = 0;      ///< index into Scene::lights
+
+    bool casts_shadows() const { return pcf || exact; }
 };
 
 /// Everything the tiles of one frame have in common. Borrows; read only.
@@ -39,6 +46,11 @@ struct TileScene {
     ShadeSky sky;
     std::span<const SamplePosition> pattern;
     bool textured = false;  ///< some material has a texture
+
+    bool has_exact() const {
+        return std::any_of(lights.begin(), lights.end(),
+                           [](const TileLight& l) { return l.exact.has_value(); });
+    }
 };
 
 /// Working memory of one tile: about 140 KiB, not initialised but for the last.
@@ -53,6 +65,7 @@ struct TileWork {
     alignas(64) float g[frame_tile_side * frame_tile_side];
     alignas(64) float b[frame_tile_side * frame_tile_side];
     std::span<double> lookup_s;  ///< seconds in shadow lookups are added here, per light; empty: not measured
+    ExactCounts exact_counts;    ///< of exact shadows, all lights
 };
 
 /// Stage 1: nearest triangle of one sample of every pixel of tile (column, row).
@@ -99,11 +112,19 @@ void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample,
     });
 }
 
-/// Stages 4 and 5: shadow lookups and shading. `shadow`: also sum visibilities into work.shadow_sum.
-void block_shade(const TileScene& scene, Isa isa, bool shadow, TileWork& work);
+/// Where a block's exact shadows are: of the k-th sample that `tile` holds, from first_row on.
+struct ExactBlock {
+    const ExactTile* tile = nullptr;
+    int k = 0, first_row = 0;
+};
 
-/// All stages; writes the tile's pixels into `frame`. Returns the number of covered samples.
+/// Stages 4 and 5: shadow lookups and shading. `shadow`: also sum visibilities into work.shadow_sum. `exact`:
+/// of lights that have exact shadows.
+void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool shadow, TileWork& work);
+
+/// All stages; writes the tile's pixels into `frame`. Returns the number of covered samples. `exact`: memory
+/// for exact shadows, needed where a light has some.
 std::int64_t render_tile(const TileScene& scene, int column, int row, const FrameOptions& options, Isa isa,
-                         TileWork& work, Frame& frame);
+                         TileWork& work, ExactTile* exact, Frame& frame);
 
 }  // namespace obscura

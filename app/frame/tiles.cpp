@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 
+#include "app/frame/exact_tile.h"
 #include "core/parallel.h"
 
 namespace obscura {
@@ -60,6 +61,9 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
     const std::size_t lights = scene.lights.size();
     std::vector<double> lookup_s(tiles * lights, 0.0);
     std::atomic<bool> skipped = false;
+    const bool has_exact = scene.has_exact();
+    ExactTilePool pool(lights);
+    std::vector<ExactCounts> counts(tiles);
     parallel_for(tiles, exec, [&](std::size_t i) {
         if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
             skipped = true;
@@ -69,15 +73,20 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
         work.lookup_s = std::span(lookup_s).subspan(i * lights, lights);
         const int column = column0 + static_cast<int>(i) % columns,
                   row = row0 + static_cast<int>(i) / columns;
-        covered[i] = render_tile(scene, column, row, options, exec.isa, work, frame);
+        std::unique_ptr<ExactTile> exact = has_exact ? pool.take() : nullptr;
+        covered[i] = render_tile(scene, column, row, options, exec.isa, work, exact.get(), frame);
+        counts[i] = work.exact_counts;
+        if (exact) pool.give_back(std::move(exact));
         meter.tile_done();
     });
     frame.complete = !skipped;
     for (const std::int64_t n : covered)
         frame.stats.covered_samples += n;
+    for (const ExactCounts& n : counts)
+        frame.stats.exact += n;
     std::size_t shadow = 0;
     for (std::size_t l = 0; l < lights; ++l) {
-        if (!scene.lights[l].pcf) continue;
+        if (!scene.lights[l].casts_shadows()) continue;
         double& sum = frame.stats.lights[shadow++].lookup_s;
         for (std::size_t i = 0; i < tiles; ++i)
             sum += lookup_s[i * lights + l];

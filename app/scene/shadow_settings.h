@@ -10,14 +10,16 @@
 namespace obscura {
 
 /// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals.
-enum class ShadowMethod { none, map, compressed };
+enum class ShadowMethod { none, map, compressed, exact };
 /// Which part of a compressed map is built: what the frame's lookups ask for, or everything.
 enum class ShadowScope { frame, full };
 /// `pcf`: a kernel of texels. `hierarchical`: of the squares that are as large as the pixel on the map.
 enum class ShadowFilter { pcf, hierarchical };
 
-inline constexpr Word<ShadowMethod> shadow_method_words[] = {
-    {"none", ShadowMethod::none}, {"map", ShadowMethod::map}, {"compressed", ShadowMethod::compressed}};
+inline constexpr Word<ShadowMethod> shadow_method_words[] = {{"none", ShadowMethod::none},
+                                                             {"map", ShadowMethod::map},
+                                                             {"compressed", ShadowMethod::compressed},
+                                                             {"exact", ShadowMethod::exact}};
 inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope::frame},
                                                            {"full", ShadowScope::full}};
 inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},

@@ -64,7 +64,7 @@ TEST_P(EveryIsa, StagesAgreeWithTheReferenceBitForBit) {
                     const TileRect tile =
                         tile_visibility(tiles, column, tile_row, tiles.pattern[1], best_isa(), work);
                     block_surface(tiles, tile, row, isa, work);
-                    block_shade(tiles, isa, true, work);
+                    block_shade(tiles, {}, isa, true, work);
                     forget_undefined(work.surface);
                     forget_undefined(work.surface, work.shade);
                     ASSERT_EQ(0, std::memcmp(&expected->surface, &work.surface, sizeof work.surface))

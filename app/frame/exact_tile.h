@@ -1,0 +1,65 @@
+#pragma once
+// Exact shadows of one tile: the samples of all its pixels are found first, and then looked for by each light
+// in the order in which they lie before it.
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "app/frame/tile.h"
+#include "raster/exact/exact_shadow.h"
+
+namespace obscura {
+
+/// Samples of a pixel that are taken together: more of them lie closer before the light, and take more
+/// memory.
+constexpr int exact_samples_together = 4;
+
+/// Up to exact_samples_together samples of every pixel of a tile, one after the other, in blocks of rows as
+/// SurfaceBlock has them.
+class ExactTile {
+  public:
+    explicit ExactTile(std::size_t lights);
+
+    /// Stages 1 and 2 of the tile for samples [first, first + count) of the pattern, rows [first_row,
+    /// end_row) (whole blocks), then the shadows of the lights that have exact ones.
+    void run(const TileScene& scene, int column, int row, int first, int count, int first_row, int end_row,
+             Isa isa, TileWork& work);
+
+    /// What run() found of stage 1 for its k-th sample, into work.depth and work.triangle.
+    void restore(int k, TileWork& work) const;
+
+    /// 0 or 1 for each sample of the block that begins at first_row, of the k-th sample.
+    void visibility(std::size_t light, int k, int first_row, float* out) const;
+
+  private:
+    static constexpr std::size_t tile_samples = std::size_t{frame_tile_side} * frame_tile_side;
+    static constexpr std::size_t room = tile_samples * exact_samples_together;
+    static std::size_t place(int k, int first_row) {
+        return static_cast<std::size_t>(k) * tile_samples +
+               static_cast<std::size_t>(first_row) * frame_tile_side;
+    }
+    void keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block);
+
+    Buffer<float> depth_, px_, py_, pz_, gx_, gy_, gz_;
+    Buffer<std::uint32_t> triangle_, face_, covered_, thin_, lit_;
+    ExactWork work_;
+};
+
+/// Memory of tiles, used again by whichever is rendered next.
+class ExactTilePool {
+  public:
+    explicit ExactTilePool(std::size_t lights) : lights_(lights) {}
+    std::unique_ptr<ExactTile> take();
+    void give_back(std::unique_ptr<ExactTile> tile);
+
+  private:
+    std::size_t lights_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<ExactTile>> free_;
+};
+
+/// Bytes of one tile's.
+std::int64_t exact_tile_bytes(std::size_t lights);
+
+}  // namespace obscura

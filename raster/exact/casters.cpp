@@ -1,0 +1,286 @@
+#include "raster/exact/casters.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "core/vec_arrays.h"
+#include "raster/shadow_map.h"
+#include "raster/view.h"
+
+namespace obscura {
+namespace {
+
+constexpr std::size_t group = 16;
+constexpr std::int32_t most_step = std::numeric_limits<std::int32_t>::max();
+
+/// Depths are floats in [0, 1], rounded twice on their way here: four units in the last place.
+constexpr float depth_error = 0x1p-22f;
+
+std::size_t groups_of(std::size_t n) {
+    return (n + group - 1) / group;
+}
+
+struct Box {
+    std::int32_t x_low, x_high, y_low, y_high;
+};
+Box box_of(const TriangleRecord& t) {
+    return {std::min({t.x[0], t.x[1], t.x[2]}), std::max({t.x[0], t.x[1], t.x[2]}),
+            std::min({t.y[0], t.y[1], t.y[2]}), std::max({t.y[0], t.y[1], t.y[2]})};
+}
+
+/// Bits of v with a zero between each two.
+std::uint64_t spread(std::uint64_t v) {
+    v = (v | (v << 8)) & 0x00ff00ff00ff00ffu;
+    v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0fu;
+    v = (v | (v << 2)) & 0x3333333333333333u;
+    v = (v | (v << 1)) & 0x5555555555555555u;
+    return v;
+}
+
+constexpr int cell_bits = 13, class_bits = 4;
+constexpr int key_bits = 2 * cell_bits + class_bits;
+
+/// Where a triangle stands in the order: large before small, by powers of four; then along a Morton curve of
+/// the middles of their boxes. 30 bits.
+std::uint64_t order_of(const TriangleRecord& t, std::int32_t steps) {
+    const Box b = box_of(t);
+    const auto side = static_cast<std::uint64_t>(
+        std::max(std::int64_t{b.x_high} - b.x_low, std::int64_t{b.y_high} - b.y_low));
+    const int size = std::min(static_cast<int>(std::bit_width(side) + 1) / 2, (1 << class_bits) - 1);
+    const auto cell = [&](std::int32_t low, std::int32_t high) {
+        const std::int64_t middle = std::clamp<std::int64_t>((std::int64_t{low} + high) / 2, 0, steps - 1);
+        return static_cast<std::uint64_t>(middle) >> (28 - cell_bits);
+    };
+    const std::uint64_t smaller = static_cast<std::uint64_t>((1 << class_bits) - 1 - size);
+    return smaller << (2 * cell_bits) | spread(cell(b.x_low, b.x_high)) |
+           spread(cell(b.y_low, b.y_high)) << 1;
+}
+
+/// Index and order of every record, sorted: by chunks of records, each of whose digits are counted alone, so
+/// that any number of threads scatters to the same places.
+class RecordOrder {
+  public:
+    RecordOrder(const TriangleSetup& setup, std::int32_t steps, const Exec& exec) : exec_(exec) {
+        std::vector<std::size_t> first(setup.blocks.size() + 1, 0);
+        for (std::size_t b = 0; b < setup.blocks.size(); ++b)
+            first[b + 1] = first[b] + setup.blocks[b].count;
+        items_.reset(first.back());
+        other_.reset(first.back());
+        parallel_for(setup.blocks.size(), exec, [&](std::size_t b) {
+            const RecordBlock& block = setup.blocks[b];
+            for (std::size_t i = 0; i < block.count; ++i) {
+                const std::size_t at = block.begin + i;
+                items_[first[b] + i] = order_of(setup.records[at], steps) << 32 | at;
+            }
+        });
+        for (int low = 32; low < 32 + key_bits; low += digit_bits)
+            sort_digit(low);
+    }
+    std::size_t size() const { return items_.size(); }
+    std::size_t record(std::size_t i) const { return static_cast<std::size_t>(items_[i] & 0xffffffffu); }
+
+  private:
+    static constexpr int digit_bits = 10;
+    static constexpr std::size_t digits = 1 << digit_bits;
+
+    void sort_digit(int low) {
+        const std::size_t n = items_.size(), chunks = std::clamp<std::size_t>(n / 16384, 1, 16);
+        const auto begin = [&](std::size_t c) { return n * c / chunks; };
+        const auto digit = [&](std::uint64_t item) { return (item >> low) & (digits - 1); };
+        places_.assign(chunks * digits, 0);
+        parallel_for(chunks, exec_, [&](std::size_t c) {
+            for (std::size_t i = begin(c); i < begin(c + 1); ++i)
+                ++places_[c * digits + digit(items_[i])];
+        });
+        std::size_t next = 0;
+        for (std::size_t d = 0; d < digits; ++d) {
+            for (std::size_t c = 0; c < chunks; ++c)
+                next += std::exchange(places_[c * digits + d], next);
+        }
+        parallel_for(chunks, exec_, [&](std::size_t c) {
+            for (std::size_t i = begin(c); i < begin(c + 1); ++i)
+                other_[places_[c * digits + digit(items_[i])]++] = items_[i];
+        });
+        std::swap(items_, other_);
+    }
+
+    const Exec& exec_;
+    Buffer<std::uint64_t> items_, other_;
+    std::vector<std::size_t> places_;
+};
+
+/// From p to the light, not unit: against the light's way, or to its position.
+Vec3d way_to_light(const Light& light, Vec3d p) {
+    return is_parallel(light.kind) ? -light.direction : light.position - p;
+}
+
+/// One view's casters being made.
+class Builder {
+  public:
+    Builder(const Mesh& mesh, const Light& light, const Exec& exec, const TriangleSetup& setup)
+        : mesh_(mesh), light_(light), exec_(exec), setup_(setup) {}
+
+    void run(Casters& casters) const {
+        const RecordOrder order(setup_, casters.view.width * subtexel_one, exec_);
+        casters.count = order.size();
+        casters.boxes.clear();
+        if (casters.count == 0) return;
+        const std::size_t groups = groups_of(casters.count);
+        casters.triangles.reset(groups * group);
+        casters.boxes.emplace_back(groups);
+        parallel_blocks(groups, 256, exec_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t g = begin; g < end; ++g)
+                fill_group(order, g, casters);
+        });
+        while (casters.boxes.back().size() > 1) {
+            Buffer<CasterBoxes> above(groups_of(casters.boxes.back().size()));
+            bound(casters.boxes.back(), above);
+            casters.boxes.push_back(std::move(above));
+        }
+    }
+
+  private:
+    void fill_group(const RecordOrder& order, std::size_t g, Casters& casters) const {
+        for (std::size_t k = 0; k < group; ++k) {
+            const std::size_t i = g * group + k;
+            CasterBoxes& boxes = casters.boxes[0][g];
+            if (i >= order.size()) {
+                casters.triangles[i] = {};
+                set_empty(boxes, k);
+                continue;
+            }
+            const TriangleRecord& t = setup_.records[order.record(i)];
+            casters.triangles[i] = caster(t);
+            const Box b = box_of(t);
+            boxes.x_low[k] = b.x_low;
+            boxes.x_high[k] = b.x_high;
+            boxes.y_low[k] = b.y_low;
+            boxes.y_high[k] = b.y_high;
+            boxes.z_low[k] = nearest_depth(t) - depth_error;
+        }
+    }
+
+    static void set_empty(CasterBoxes& boxes, std::size_t k) {
+        boxes.x_low[k] = boxes.y_low[k] = most_step;
+        boxes.x_high[k] = boxes.y_high[k] = -most_step;
+        boxes.z_low[k] = std::numeric_limits<float>::infinity();
+    }
+
+    CasterTriangle caster(const TriangleRecord& t) const {
+        CasterTriangle c{};
+        std::copy_n(t.x, 3, c.x);
+        std::copy_n(t.y, 3, c.y);
+        c.face = mesh_.face[t.triangle];
+        c.triangle = t.triangle;
+        const Plane& plane = mesh_.faces[c.face];
+        // Turned to the light. A plane through the light, or along its way, hides nothing.
+        const Vec3d on_plane = plane.n * -plane.d;
+        const double facing = dot(plane.n, way_to_light(light_, on_plane));
+        const double side = facing > 0 ? 1.0 : (facing < 0 ? -1.0 : 0.0);
+        set(c.n, plane.n * side);
+        c.d = plane.d * side;
+        return c;
+    }
+
+    float nearest_depth(const TriangleRecord& t) const {
+        float z = std::numeric_limits<float>::infinity();
+        for (const std::uint32_t v : mesh_.triangles[t.triangle].v) {
+            const MapVertex& vertex = setup_.vertices[v];
+            // Depth means nothing before the near plane.
+            if ((vertex.clip & clip_near) != 0) return 0.0f;
+            z = std::min(z, vertex.z);
+        }
+        return z;
+    }
+
+    void bound(const Buffer<CasterBoxes>& below, Buffer<CasterBoxes>& above) const {
+        for (std::size_t i = 0; i < above.size() * group; ++i) {
+            CasterBoxes& to = above[i / group];
+            const std::size_t k = i % group;
+            set_empty(to, k);
+            if (i >= below.size()) continue;
+            const CasterBoxes& from = below[i];
+            to.x_low[k] = *std::min_element(from.x_low, from.x_low + group);
+            to.x_high[k] = *std::max_element(from.x_high, from.x_high + group);
+            to.y_low[k] = *std::min_element(from.y_low, from.y_low + group);
+            to.y_high[k] = *std::max_element(from.y_high, from.y_high + group);
+            to.z_low[k] = *std::min_element(from.z_low, from.z_low + group);
+        }
+    }
+
+    const Mesh& mesh_;
+    const Light& light_;
+    const Exec& exec_;
+    const TriangleSetup& setup_;
+};
+
+}  // namespace
+
+std::int64_t Casters::bytes() const {
+    std::size_t bytes = triangles.size() * sizeof(CasterTriangle);
+    for (const auto& level : boxes)
+        bytes += level.size() * sizeof(CasterBoxes);
+    return static_cast<std::int64_t>(bytes);
+}
+
+std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const Exec& exec,
+                                   TriangleSetup& scratch) {
+    const ShadowViewParams params{exact_view_texels, 1};
+    const Bounds box = is_parallel(light.kind) ? caster_box(mesh, light.direction) : Bounds{};
+    std::vector<Casters> all;
+    for (const LightView& view : fitted_shadow_views(light, params, box)) {
+        Casters& casters = all.emplace_back();
+        casters.view = view;
+        SetupParams setup;
+        setup.only_casters = true;
+        setup.centre_samples_only = false;
+        setup_triangles(mesh, view, setup, exec, scratch);
+        Builder(mesh, light, exec, scratch).run(casters);
+    }
+    return all;
+}
+
+std::int64_t casters_bytes(std::int64_t triangles) {
+    // A cache line and a sixteenth of a group of boxes, and a fifteenth of the latter for all levels above;
+    // two lists of 8 bytes while they are sorted.
+    return triangles * (64 + 20 + 2 + 16);
+}
+
+ExactLight exact_light(const Light& light, std::span<const Casters> casters, const CameraRays& rays) {
+    CHECK(casters.size() == 1 || casters.size() == 6);
+    ExactLight e;
+    e.views = static_cast<std::int32_t>(casters.size());
+    for (std::size_t i = 0; i < casters.size(); ++i) {
+        const Casters& c = casters[i];
+        ExactView& v = e.view[i];
+        std::copy_n(&c.view.to_map.m[0][0], 16, &v.to_map[0][0]);
+        v.triangles = c.triangles.data();
+        v.count = static_cast<std::int64_t>(c.count);
+        v.levels = static_cast<std::int32_t>(c.boxes.size());
+        CHECK(v.levels <= most_caster_levels);
+        for (std::size_t l = 0; l < c.boxes.size(); ++l)
+            v.boxes[l] = c.boxes[l].data();
+        v.steps = c.view.width * subtexel_one;
+        v.perspective = c.view.perspective;
+        v.near_w = c.view.near_w;
+        v.step_m = texel_size_m(c.view) / subtexel_one;
+    }
+    e.directional = is_parallel(light.kind);
+    set(e.to_light, to_float(-normalize(light.direction)));
+    const Vec3d eye{rays.eye[0], rays.eye[1], rays.eye[2]};
+    set(e.position, to_float(light.position - eye));
+    std::copy_n(rays.eye, 3, e.eye);
+    // A pixel's side, everywhere or at distance 1.
+    const auto side = [](const double(&x)[3], const double(&y)[3]) {
+        return std::max(length(Vec3d{x[0], x[1], x[2]}), length(Vec3d{y[0], y[1], y[2]})) / subtexel_one;
+    };
+    const double per_metre = rays.perspective ? side(rays.dir_x, rays.dir_y) : 0.0;
+    e.uncertain_m = rays.perspective ? 0.0f : static_cast<float>(side(rays.origin_x, rays.origin_y));
+    e.uncertain_per_m = static_cast<float>(per_metre) + 0x1p-21f;
+    return e;
+}
+
+}  // namespace obscura

@@ -1,0 +1,139 @@
+#pragma once
+// Shadows of a picture's own samples, without a map. POD: kernels include this.
+//
+// T. Aila and S. Laine, "Alias-Free Shadow Maps", EGSR 2004; G. Johnson, J. Lee, C. Burns, W. Mark, "The
+// Irregular Z-Buffer", ACM TOG 2005; C. Wyman, R. Hoetzlein, A. Lefohn, "Frustum-Traced Raster Shadows", I3D
+// 2015: what casts shadows is rasterized as the light sees it, not onto texels, but onto the very points that
+// the camera sees. No resolution, no filter, no bias to choose.
+//
+// A triangle darkens a sample when
+//   1. it covers the sample as the light sees both: exact edge functions on a grid of 2^28 steps over the
+//      view (raster/coverage.h), so that a closed mesh has no cracks;
+//   2. the sample lies behind the triangle's plane by more than what is uncertain of its own place, and is
+//   not
+//      nearer to the light than the triangle's nearest corner;
+//   3. it is not of the sample's own planar face.
+//
+// What is uncertain of a sample: the camera sees triangles whose corners are snapped to 1/256 pixel, so a
+// sample may lie that far beside the surface it shows; its position is a float (2^-21 of |x| + |y| + |z|,
+// as in filters/pcf.h); and its place on the light's grid is a step off. What lies within that of the sample
+// is the same surface for the camera, and so it is here: touching solids, sheets back to back, doubled faces
+// and z-fighting shade nothing of each other, and no shadow is displaced by more than 1/256 pixel along a
+// plane's normal.
+
+#include <cstdint>
+
+#include "raster/record.h"
+
+namespace obscura {
+
+/// Texels a side of the views that casters are set up for: with raster/record.h's sub-texel bits a grid of
+/// 2^28 steps.
+constexpr int exact_view_texels = 1 << 20;
+
+/// One triangle that casts a shadow (or a piece of one that was clipped): 64 bytes, one cache line.
+struct CasterTriangle {
+    double n[3], d;  ///< plane n . p + d of its face, world space, unit, positive on the light's side
+    std::int32_t x[3], y[3];  ///< as TriangleRecord: the edge functions are positive inside
+    std::uint32_t face;       ///< Mesh::face
+    std::uint32_t triangle;   ///< index into the mesh
+};
+static_assert(sizeof(CasterTriangle) == 64);
+
+/// What bounds sixteen triangles, or sixteen groups of sixteen: on the light's grid, and the nearest depth.
+/// Places that hold nothing have x_low > x_high.
+struct alignas(64) CasterBoxes {
+    std::int32_t x_low[16], x_high[16], y_low[16], y_high[16];
+    float z_low[16];
+};
+
+/// Enough for 2^32 triangles.
+constexpr int most_caster_levels = 8;
+
+/// One view of a light, ready for kernels. Child k of box group i of level l > 0 is group 16 i + k of level
+/// l - 1; of level 0, triangle 16 i + k. The last level is a single group.
+struct ExactView {
+    double to_map[4][4];  ///< LightView::to_map
+    const CasterTriangle* triangles = nullptr;
+    const CasterBoxes* boxes[most_caster_levels] = {};
+    std::int64_t count = 0;   ///< of triangles
+    std::int32_t levels = 0;  ///< 0: nothing casts a shadow here
+    std::int32_t steps = 0;   ///< of the grid, a side; what lies beyond is lit
+    bool perspective = false;
+    double near_w = 0;  ///< perspective: samples nearer than this are lit
+    double step_m = 0;  ///< metres that a step spans: everywhere, or at distance 1 (perspective)
+};
+
+/// A light as its samples see it.
+struct ExactLight {
+    ExactView view[6];
+    std::int32_t views = 1;  ///< 1, or 6: the one that cube_face() names for the sample
+    bool directional = true;
+    float to_light[3] = {0, 1, 0};  ///< directional: unit
+    float position[3] = {0, 0, 0};  ///< otherwise; relative to the eye
+    double eye[3] = {0, 0, 0};
+    /// Metres that are uncertain of a sample at p, relative to the eye: constant + per_metre (|x| + |y| +
+    /// |z|).
+    float uncertain_m = 0, uncertain_per_m = 0;
+};
+
+/// Points that a camera sees, all of them with one eye: arrays of `count`, a multiple of sixteen. Bit i of a
+/// mask word is point 16 g + i.
+struct ExactPoints {
+    std::int32_t count = 0;
+    const float *px, *py, *pz;     ///< metres, relative to the eye
+    const float *gx, *gy, *gz;     ///< geometric normal, turned to the viewer
+    const std::uint32_t* face;     ///< planar face of each (Mesh::face)
+    const std::uint32_t* covered;  ///< points that there are
+    const std::uint32_t* thin;     ///< on surfaces that let light through, which have no dark side
+};
+
+/// Points on the grids of a light's views, and those alone that must be looked up: arrays with room for all.
+struct ExactSamples {
+    std::int32_t count = 0;
+    std::int32_t *x, *y;   ///< on the grid of the point's view
+    float* z;              ///< depth there
+    float* uncertain;      ///< metres
+    std::uint32_t* point;  ///< which
+    std::uint8_t* view;
+};
+
+/// Work done, for tests and charts: nothing of it depends on threads.
+struct ExactCounts {
+    std::int64_t samples = 0;    ///< looked up
+    std::int64_t groups = 0;     ///< of boxes that were looked at, sixteen boxes each
+    std::int64_t triangles = 0;  ///< looked at, each for sixteen samples
+
+    ExactCounts& operator+=(const ExactCounts& o) {
+        samples += o.samples;
+        groups += o.groups;
+        triangles += o.triangles;
+        return *this;
+    }
+};
+
+/// exact_locate: of every point that asks for light, the bit in `lit` (as ExactPoints' masks): not of those
+/// that are not there, nor of those that face away. Those that something may darken become samples.
+/// exact_darken: takes the bits of darkened samples out of `lit`. order[i]: sample that stands at place i;
+/// sixteen neighbours in that order are looked up together, so they should be neighbours on the grid, and
+/// views should follow one another. Any order gives the same bits. Adds to `counts`.
+#define OBSCURA_EXACT                                                                                  \
+    void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,       \
+                      std::uint32_t* lit) noexcept;                                                    \
+    void exact_darken(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples, \
+                      const std::uint32_t* order, std::uint32_t* lit, ExactCounts& counts) noexcept;
+namespace ref {
+OBSCURA_EXACT
+}
+namespace sse2 {
+OBSCURA_EXACT
+}
+namespace avx2 {
+OBSCURA_EXACT
+}
+namespace avx512bw {
+OBSCURA_EXACT
+}
+#undef OBSCURA_EXACT
+
+}  // namespace obscura

@@ -1,0 +1,397 @@
+// Shadows of a picture's own samples, sixteen at a time. See exact_ref.cpp for the meaning of each step.
+//
+// Samples come in an order in which neighbours lie close together on the light's grid. Boxes are asked for
+// sixteen of their children at once: first for sixteen bunches of samples together, then for each bunch among
+// what is left. Triangles are asked for the sixteen samples of a bunch.
+
+#include "core/simd_vec.h"
+#include "raster/exact/exact.h"
+
+namespace obscura::OBSCURA_ISA {
+namespace {
+
+constexpr int bunches = 16;
+
+OBSCURA_INLINE std::int32_t least(std::int32_t a, std::int32_t b) {
+    return a < b ? a : b;
+}
+OBSCURA_INLINE std::int32_t most(std::int32_t a, std::int32_t b) {
+    return a > b ? a : b;
+}
+OBSCURA_INLINE float least(float a, float b) {
+    return a < b ? a : b;
+}
+OBSCURA_INLINE float most(float a, float b) {
+    return a > b ? a : b;
+}
+
+/// What samples of one view lie in, on its grid, and the deepest of them.
+struct Extent {
+    std::int32_t x_low, x_high, y_low, y_high;
+    float z_high;
+};
+
+/// Sixteen samples of one view, or fewer at its end: lanes that are not open repeat one that is.
+struct Bunch {
+    alignas(64) std::int32_t x[16], y[16], face[16];
+    alignas(64) float z[16];
+    alignas(64) double px[16], py[16], pz[16];  ///< world space
+    alignas(64) double lowest[16];              ///< height above a plane below which it is behind it
+    Extent extent;
+    float z_low;
+    std::uint32_t open;  ///< lanes that nothing has darkened yet
+    bool one_face;       ///< all lanes have the first one's
+};
+
+OBSCURA_INLINE std::int32_t smallest(const I32& a) {
+    alignas(64) std::int32_t v[16];
+    store(v, a);
+    for (int half = 8; half > 0; half /= 2) {
+        for (int k = 0; k < half; ++k)
+            v[k] = least(v[k], v[k + half]);
+    }
+    return v[0];
+}
+OBSCURA_INLINE std::int32_t largest(const I32& a) {
+    alignas(64) std::int32_t v[16];
+    store(v, a);
+    for (int half = 8; half > 0; half /= 2) {
+        for (int k = 0; k < half; ++k)
+            v[k] = most(v[k], v[k + half]);
+    }
+    return v[0];
+}
+OBSCURA_INLINE float smallest(const F32& a) {
+    alignas(64) float v[16];
+    store(v, a);
+    for (int half = 8; half > 0; half /= 2) {
+        for (int k = 0; k < half; ++k)
+            v[k] = least(v[k], v[k + half]);
+    }
+    return v[0];
+}
+OBSCURA_INLINE float largest(const F32& a) {
+    alignas(64) float v[16];
+    store(v, a);
+    for (int half = 8; half > 0; half /= 2) {
+        for (int k = 0; k < half; ++k)
+            v[k] = most(v[k], v[k + half]);
+    }
+    return v[0];
+}
+
+OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
+    const F32 ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero = splat(0.0f);
+    const auto face = [&](const F32& along, std::int32_t positive) {
+        return select(less_equal(zero, along), splat(positive), splat(positive + 1));
+    };
+    const Mask x_largest = less_equal(ay, ax) & less_equal(az, ax);
+    const Mask y_largest = less_equal(az, ay);
+    return select(x_largest, face(d.x, 0), select(y_largest, face(d.y, 2), face(d.z, 4)));
+}
+
+OBSCURA_INLINE F64 row(const double (&m)[4], const F64& x, const F64& y, const F64& z) {
+    return (splat(m[0]) * x + splat(m[1]) * y) + (splat(m[2]) * z + splat(m[3]));
+}
+
+/// Sixteen points on the grid of one view.
+struct Located {
+    I32 x, y;
+    F32 z, uncertain;
+    std::uint32_t looks;
+};
+
+OBSCURA_INLINE Located located(const ExactLight& light, const ExactView& view, const Vec3x16& p) {
+    Located to;
+    const F64 x = splat(light.eye[0]) + to_f64(p.x), y = splat(light.eye[1]) + to_f64(p.y),
+              z = splat(light.eye[2]) + to_f64(p.z);
+    F64 w = splat(1.0);
+    to.looks = 0xffffu;
+    if (view.perspective) {
+        w = row(view.to_map[3], x, y, z);
+        to.looks &= bits(greater_equal(w, splat(view.near_w)));
+    }
+    const F64 inv = splat(1.0) / w;
+    const auto on_grid = [&](int k) {
+        const F64 steps = (row(view.to_map[k], x, y, z) * inv) * splat(256.0);
+        return round_to_i32(min(max(steps, splat(-1.0)), splat(view.steps + 1.0)));
+    };
+    to.x = on_grid(0);
+    to.y = on_grid(1);
+    const I32 zero = splat(std::int32_t{0}), last = splat(view.steps);
+    to.looks &= bits(less_equal(zero, to.x) & less_equal(to.x, last) & less_equal(zero, to.y) &
+                     less_equal(to.y, last));
+    to.z = to_f32(row(view.to_map[2], x, y, z) * inv);
+    const F32 reach = (abs(p.x) + abs(p.y)) + abs(p.z);
+    to.uncertain = (splat(light.uncertain_m) + splat(light.uncertain_per_m) * reach) +
+                   splat(static_cast<float>(view.step_m)) * to_f32(w);
+    return to;
+}
+
+OBSCURA_INLINE void append(const Located& from, std::uint32_t lanes_of, std::int32_t first_point,
+                           std::int32_t view, ExactSamples& to) {
+    alignas(64) std::int32_t x[16], y[16];
+    alignas(64) float z[16], uncertain[16];
+    store(x, from.x);
+    store(y, from.y);
+    store(z, from.z);
+    store(uncertain, from.uncertain);
+    std::int32_t n = to.count;
+    for (; lanes_of != 0; lanes_of &= lanes_of - 1, ++n) {
+        const int k = __builtin_ctz(lanes_of);
+        to.x[n] = x[k];
+        to.y[n] = y[k];
+        to.z[n] = z[k];
+        to.uncertain[n] = uncertain[k];
+        to.point[n] = static_cast<std::uint32_t>(first_point + k);
+        to.view[n] = static_cast<std::uint8_t>(view);
+    }
+    to.count = n;
+}
+
+/// `n` samples of one view, from order[0] on.
+OBSCURA_INLINE void gather_bunch(const ExactPoints& points, const ExactLight& light,
+                                 const ExactSamples& samples, const std::uint32_t* order, int n, Bunch& to) {
+    alignas(64) float px[16], py[16], pz[16], uncertain[16];
+    for (int k = 0; k < 16; ++k) {
+        const std::uint32_t i = order[k < n ? k : 0], at = samples.point[i];
+        to.x[k] = samples.x[i];
+        to.y[k] = samples.y[i];
+        to.z[k] = samples.z[i];
+        uncertain[k] = samples.uncertain[i];
+        to.face[k] = static_cast<std::int32_t>(points.face[at]);
+        px[k] = points.px[at];
+        py[k] = points.py[at];
+        pz[k] = points.pz[at];
+    }
+    store(to.px, splat(light.eye[0]) + to_f64(load(px)));
+    store(to.py, splat(light.eye[1]) + to_f64(load(py)));
+    store(to.pz, splat(light.eye[2]) + to_f64(load(pz)));
+    store(to.lowest, splat(0.0) - to_f64(load(uncertain)));
+    const I32 x = load(to.x), y = load(to.y), face = load(to.face);
+    const F32 z = load(to.z);
+    to.extent = {smallest(x), largest(x), smallest(y), largest(y), largest(z)};
+    to.z_low = smallest(z);
+    to.open = (n >= 16 ? 0xffffu : (1u << n) - 1u);
+    to.one_face = all(equal(face, splat(to.face[0])));
+}
+
+/// Which of sixteen boxes may hold what darkens something in `e`.
+OBSCURA_INLINE std::uint32_t overlapping(const CasterBoxes& boxes, const Extent& e) {
+    return bits(
+        less_equal(load(boxes.x_low), splat(e.x_high)) & less_equal(splat(e.x_low), load(boxes.x_high)) &
+        less_equal(load(boxes.y_low), splat(e.y_high)) & less_equal(splat(e.y_low), load(boxes.y_high)) &
+        less_equal(load(boxes.z_low), splat(e.z_high)));
+}
+
+/// Calls visit(group of boxes, child) for every triangle whose box overlaps e, until it returns false.
+template <class Visit>
+OBSCURA_INLINE void walk(const ExactView& view, const Extent& e, std::int64_t& groups, Visit&& visit) {
+    struct Entry {
+        std::int32_t level;
+        std::uint32_t group;
+    };
+    Entry stack[16 * most_caster_levels];
+    int top = 0;
+    stack[top++] = {view.levels - 1, 0};
+    while (top > 0) {
+        const Entry at = stack[--top];
+        ++groups;
+        const CasterBoxes& boxes = view.boxes[at.level][at.group];
+        std::uint32_t inside = overlapping(boxes, e);
+        if (at.level == 0) {
+            for (; inside != 0; inside &= inside - 1) {
+                if (!visit(boxes, 16 * at.group, __builtin_ctz(inside))) return;
+            }
+            continue;
+        }
+        // Last first, so that the first is on top.
+        while (inside != 0) {
+            const int k = 31 - __builtin_clz(inside);
+            inside &= ~(1u << k);
+            stack[top++] = {at.level - 1, 16 * at.group + static_cast<std::uint32_t>(k)};
+        }
+    }
+}
+
+/// An edge that some sample of a bunch may be outside of: value at the bunch's lowest place, and steps.
+struct Crossing {
+    std::int64_t e, A, B;
+};
+
+/// Lanes inside of the edges, whose values do not fit doubles.
+std::uint32_t inside_of_long(const Crossing* edge, int edges, const Bunch& s) {
+    std::uint32_t inside = 0;
+    for (int lane = 0; lane < 16; ++lane) {
+        const std::int64_t dx = std::int64_t{s.x[lane]} - s.extent.x_low,
+                           dy = std::int64_t{s.y[lane]} - s.extent.y_low;
+        bool all = true;
+        for (int k = 0; k < edges; ++k)
+            all = all && edge[k].A * dx + edge[k].B * dy + edge[k].e >= 0;
+        inside |= static_cast<std::uint32_t>(all) << lane;
+    }
+    return inside;
+}
+
+/// Open lanes of the bunch that the triangle darkens.
+OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, const Bunch& s) {
+    if (s.one_face && static_cast<std::int32_t>(t.face) == s.face[0]) return 0;
+    // Edges over the bunch's extent: outside of one, done; inside of all of one, forgotten.
+    Crossing edge[3];
+    int edges = 0;
+    bool fits = true;
+    const std::int64_t width = std::int64_t{s.extent.x_high} - s.extent.x_low,
+                       height = std::int64_t{s.extent.y_high} - s.extent.y_low;
+    for (int k = 0; k < 3; ++k) {
+        const int n = k == 2 ? 0 : k + 1;
+        const std::int64_t A = std::int64_t{t.y[k]} - t.y[n], B = std::int64_t{t.x[n]} - t.x[k];
+        const std::int64_t keeps_its_edge = (A > 0) | ((A == 0) & (B > 0));
+        const std::int64_t e = A * (s.extent.x_low - std::int64_t{t.x[k]}) +
+                               B * (s.extent.y_low - std::int64_t{t.y[k]}) + keeps_its_edge - 1;
+        const std::int64_t across = A * width, down = B * height;
+        if (e + (across > 0 ? across : 0) + (down > 0 ? down : 0) < 0) return 0;
+        if (e + (across < 0 ? across : 0) + (down < 0 ? down : 0) >= 0) continue;
+        edge[edges++] = {e, A, B};
+        constexpr std::int64_t exact = std::int64_t{1} << 51;
+        fits = fits && -exact < across && across < exact && -exact < down && down < exact;
+    }
+
+    const F64 height_above =
+        (splat(t.n[0]) * load(s.px) + splat(t.n[1]) * load(s.py)) + (splat(t.n[2]) * load(s.pz) + splat(t.d));
+    std::uint32_t dark = s.open & ~bits(greater_equal(height_above, load(s.lowest)));
+    if (dark == 0) return 0;
+    if (!s.one_face) dark &= ~bits(equal(load(s.face), splat(static_cast<std::int32_t>(t.face))));
+    if (!(z_low <= s.z_low)) dark &= bits(less_equal(splat(z_low), load(s.z)));
+    if (dark == 0 || edges == 0) return dark;
+    if (!fits) return dark & inside_of_long(edge, edges, s);
+    const F64 dx = to_f64(load(s.x) - splat(s.extent.x_low)), dy = to_f64(load(s.y) - splat(s.extent.y_low));
+    for (int k = 0; k < edges && dark != 0; ++k) {
+        const F64 value =
+            (splat(static_cast<double>(edge[k].A)) * dx + splat(static_cast<double>(edge[k].B)) * dy) +
+            splat(static_cast<double>(edge[k].e));
+        dark &= bits(greater_equal(value, splat(0.0)));
+    }
+    return dark;
+}
+
+/// Triangles near a whole block, with their boxes sixteen by sixteen.
+struct Nearby {
+    static constexpr int room = 256;
+    CasterBoxes boxes[room / 16];
+    std::uint32_t triangle[room];
+    int count = 0;
+
+    OBSCURA_INLINE void add(const CasterBoxes& from, std::uint32_t first, int k) {
+        CasterBoxes& to = boxes[count / 16];
+        const int i = count % 16;
+        to.x_low[i] = from.x_low[k];
+        to.x_high[i] = from.x_high[k];
+        to.y_low[i] = from.y_low[k];
+        to.y_high[i] = from.y_high[k];
+        to.z_low[i] = from.z_low[k];
+        triangle[count++] = first + static_cast<std::uint32_t>(k);
+    }
+    /// Places after the last hold nothing.
+    OBSCURA_INLINE void close() {
+        for (int i = count; i % 16 != 0; ++i) {
+            boxes[i / 16].x_low[i % 16] = 0x7fffffff;
+            boxes[i / 16].x_high[i % 16] = -0x7fffffff;
+        }
+    }
+};
+
+OBSCURA_INLINE Extent united(const Extent& a, const Extent& b) {
+    return {least(a.x_low, b.x_low), most(a.x_high, b.x_high), least(a.y_low, b.y_low),
+            most(a.y_high, b.y_high), most(a.z_high, b.z_high)};
+}
+
+/// Darkens the open lanes of `n` bunches, which are of one view.
+void darken(const ExactView& view, Bunch* bunch, int n, ExactCounts& counts) {
+    Extent all = bunch[0].extent;
+    for (int b = 1; b < n; ++b)
+        all = united(all, bunch[b].extent);
+    Nearby nearby;
+    bool complete = true;
+    walk(view, all, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
+        complete = nearby.count < Nearby::room;
+        if (complete) nearby.add(boxes, first, k);
+        return complete;
+    });
+    nearby.close();
+    for (int b = 0; b < n; ++b) {
+        Bunch& s = bunch[b];
+        const auto test = [&](std::uint32_t triangle, float z_low) {
+            ++counts.triangles;
+            s.open &= ~darkened(view.triangles[triangle], z_low, s);
+            return s.open != 0;
+        };
+        if (!complete) {
+            walk(view, s.extent, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
+                return test(first + static_cast<std::uint32_t>(k), boxes.z_low[k]);
+            });
+            continue;
+        }
+        for (int g = 0; g < nearby.count && s.open != 0; g += 16) {
+            ++counts.groups;
+            const CasterBoxes& boxes = nearby.boxes[g / 16];
+            for (std::uint32_t inside = overlapping(boxes, s.extent); inside != 0; inside &= inside - 1) {
+                const int k = __builtin_ctz(inside);
+                if (!test(nearby.triangle[g + k], boxes.z_low[k])) break;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,
+                  std::uint32_t* lit) noexcept {
+    samples.count = 0;
+    for (std::int32_t at = 0; at < points.count; at += lanes) {
+        const std::uint32_t covered = points.covered[at / 16];
+        lit[at / 16] = 0;
+        if (covered == 0) continue;
+        const Vec3x16 p = load3(points.px + at, points.py + at, points.pz + at);
+        const Vec3x16 g = load3(points.gx + at, points.gy + at, points.gz + at);
+        const Vec3x16 l = light.directional ? splat3(light.to_light) : splat3(light.position) - p;
+        const std::uint32_t asking = covered & (bits(less(splat(0.0f), dot(g, l))) | points.thin[at / 16]);
+        lit[at / 16] = asking;
+        if (asking == 0) continue;
+        const I32 face = light.views == 6 ? cube_faces(negated(mask_of(0xffffu), l)) : splat(std::int32_t{0});
+        for (std::int32_t v = 0; v < light.views; ++v) {
+            const std::uint32_t of_view = asking & bits(equal(face, splat(v)));
+            if (of_view == 0 || light.view[v].levels == 0) continue;
+            const Located place = located(light, light.view[v], p);
+            append(place, of_view & place.looks, at, v, samples);
+        }
+    }
+}
+
+void exact_darken(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples,
+                  const std::uint32_t* order, std::uint32_t* lit, ExactCounts& counts) noexcept {
+    Bunch bunch[bunches];
+    std::int32_t next = 0;
+    while (next < samples.count) {
+        const std::uint8_t view = samples.view[order[next]];
+        const std::int32_t first = next;
+        int n = 0;
+        for (; n < bunches && next < samples.count && samples.view[order[next]] == view; ++n) {
+            int members = 1;
+            while (members < lanes && next + members < samples.count &&
+                   samples.view[order[next + members]] == view)
+                ++members;
+            gather_bunch(points, light, samples, order + next, members, bunch[n]);
+            next += members;
+        }
+        darken(light.view[view], bunch, n, counts);
+        for (std::int32_t i = first; i < next; ++i) {
+            const std::int32_t at = i - first;
+            if ((bunch[at / lanes].open >> (at % lanes) & 1u) != 0) continue;
+            const std::uint32_t point = samples.point[order[i]];
+            lit[point / 16] &= ~(1u << (point % 16));
+        }
+    }
+    counts.samples += samples.count;
+}
+
+}  // namespace obscura::OBSCURA_ISA

@@ -1,0 +1,90 @@
+#include "raster/exact/exact_shadow.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace obscura {
+namespace {
+
+constexpr int cell_bits = 10, view_bits = 3;
+
+/// Bits of v (ten) with a zero between each two.
+std::uint32_t spread(std::uint32_t v) {
+    v = (v | (v << 8)) & 0x00ff00ffu;
+    v = (v | (v << 4)) & 0x0f0f0f0fu;
+    v = (v | (v << 2)) & 0x33333333u;
+    v = (v | (v << 1)) & 0x55555555u;
+    return v;
+}
+
+}  // namespace
+
+ExactWork::ExactWork(std::size_t most_points)
+    : x_(most_points),
+      y_(most_points),
+      z_(most_points),
+      uncertain_(most_points),
+      point_(most_points),
+      order_(most_points),
+      other_order_(most_points),
+      key_(most_points),
+      other_key_(most_points),
+      view_(most_points) {
+    samples_.x = x_.data();
+    samples_.y = y_.data();
+    samples_.z = z_.data();
+    samples_.uncertain = uncertain_.data();
+    samples_.point = point_.data();
+    samples_.view = view_.data();
+}
+
+void ExactWork::shadows(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
+                        ExactCounts& counts) {
+    OBSCURA_DISPATCH(isa, exact_locate, points, light, samples_, lit);
+    if (samples_.count == 0) return;
+    order(light.views);
+    OBSCURA_DISPATCH(isa, exact_darken, points, light, samples_, order_.data(), lit, counts);
+}
+
+/// View by view along a Morton curve of square cells, of which the longer side of what the samples span has
+/// up to 2^cell_bits.
+void ExactWork::order(int views) {
+    const auto n = static_cast<std::size_t>(samples_.count);
+    const auto [x_low, x_high] = std::minmax_element(x_.data(), x_.data() + n);
+    const auto [y_low, y_high] = std::minmax_element(y_.data(), y_.data() + n);
+    const std::int32_t x0 = *x_low, y0 = *y_low;
+    const auto span = static_cast<std::uint32_t>(std::max(*x_high - x0, *y_high - y0));
+    const int shift = std::max(static_cast<int>(std::bit_width(span)) - cell_bits, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto cell = [&](std::int32_t at, std::int32_t low) {
+            return spread(static_cast<std::uint32_t>(at - low) >> shift);
+        };
+        key_[i] = std::uint32_t{view_[i]} << (2 * cell_bits) | cell(x_[i], x0) | cell(y_[i], y0) << 1;
+        order_[i] = static_cast<std::uint32_t>(i);
+    }
+    sort_digit(0);
+    sort_digit(cell_bits);
+    if (views > 1) sort_digit(2 * cell_bits);
+}
+
+void ExactWork::sort_digit(int low) {
+    constexpr std::uint32_t digits = 1u << cell_bits;
+    static_assert(view_bits <= cell_bits);
+    const auto n = static_cast<std::size_t>(samples_.count);
+    std::uint32_t place[digits] = {};
+    for (std::size_t i = 0; i < n; ++i)
+        ++place[key_[i] >> low & (digits - 1)];
+    std::uint32_t next = 0;
+    for (std::uint32_t& p : place)
+        next += std::exchange(p, next);
+    for (std::size_t i = 0; i < n; ++i) {
+        const std::uint32_t to = place[key_[i] >> low & (digits - 1)]++;
+        other_key_[to] = key_[i];
+        other_order_[to] = order_[i];
+    }
+    std::swap(key_, other_key_);
+    std::swap(order_, other_order_);
+}
+
+}  // namespace obscura

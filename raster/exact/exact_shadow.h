@@ -1,0 +1,54 @@
+#pragma once
+// Exact shadows of many points, and of one with all that makes it.
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/buffer.h"
+#include "core/isa.h"
+#include "raster/exact/exact.h"
+
+namespace obscura {
+
+/// Working memory of exact_shadows(): 33 bytes a point.
+class ExactWork {
+  public:
+    explicit ExactWork(std::size_t most_points);
+
+    /// Bit i % 16 of lit[i / 16]: whether light reaches point i; not of points that face away. At most
+    /// `most_points` points. Points are taken along a Morton curve on the light's grid. The same bits for any
+    /// isa; counts are the same for all but `ref`, which asks sample by sample.
+    void shadows(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
+                 ExactCounts& counts);
+
+  private:
+    void order(int views);
+    void sort_digit(int low);
+
+    ExactSamples samples_;
+    Buffer<std::int32_t> x_, y_;
+    Buffer<float> z_, uncertain_;
+    Buffer<std::uint32_t> point_, order_, other_order_, key_, other_key_;
+    Buffer<std::uint8_t> view_;
+};
+
+namespace ref {
+
+/// What a point's shadow is, found by asking every triangle.
+struct ExactShadow {
+    bool asks = false;  ///< false: nothing is there, or it faces away from the light
+    bool lit = false;
+    int view = 0;
+    bool on_map = false;        ///< false: lit without looking, before the near plane or beyond what casts
+    std::int32_t x = 0, y = 0;  ///< on the light's grid
+    float uncertain_m = 0;      ///< of the point's place
+    // In shadow only:
+    std::int64_t triangles = 0;  ///< how many darken it
+    std::uint32_t triangle = 0;  ///< of these, the one that stands nearest to the point
+    double distance_m = 0;       ///< to it, along the light
+    double behind_m = 0;         ///< how far the point lies behind its plane, at right angles to that
+};
+ExactShadow exact_shadow(const ExactPoints& points, const ExactLight& light, int at);
+
+}  // namespace ref
+}  // namespace obscura
