@@ -164,5 +164,43 @@ OBSCURA_INLINE std::uint32_t united_bits(const I32& a) {
         _mm_cvtsi128_si32(_mm_or_si128(d, _mm_shuffle_epi32(d, _MM_SHUFFLE(2, 3, 0, 1)))));
 }
 
+/// Least and greatest of all lanes; of floats no lane may be a NaN.
+OBSCURA_INLINE float lowest(const F32& a) {
+#if defined(OBSCURA_ISA_avx512bw)
+    const __m256 half = _mm256_min_ps(_mm512_castps512_ps256(a.r[0]), _mm512_extractf32x8_ps(a.r[0], 1));
+    const __m128 q = _mm_min_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
+#elif defined(OBSCURA_ISA_avx2)
+    const __m256 half = _mm256_min_ps(a.r[0], a.r[1]);
+    const __m128 q = _mm_min_ps(_mm256_castps256_ps128(half), _mm256_extractf128_ps(half, 1));
+#else
+    const __m128 q = _mm_min_ps(_mm_min_ps(a.r[0], a.r[1]), _mm_min_ps(a.r[2], a.r[3]));
+#endif
+    const __m128 d = _mm_min_ps(q, _mm_movehl_ps(q, q));
+    return _mm_cvtss_f32(_mm_min_ss(d, _mm_shuffle_ps(d, d, 1)));
+}
+OBSCURA_INLINE float highest(const F32& a) {
+    return -lowest(splat(-0.0f) ^ a);
+}
+OBSCURA_INLINE std::int32_t lowest(const I32& a) {
+#if defined(OBSCURA_ISA_avx512bw)
+    const __m256i half =
+        _mm256_min_epi32(_mm512_castsi512_si256(a.r[0]), _mm512_extracti64x4_epi64(a.r[0], 1));
+    const __m128i q = _mm_min_epi32(_mm256_castsi256_si128(half), _mm256_extracti128_si256(half, 1));
+#elif defined(OBSCURA_ISA_avx2)
+    const __m256i half = _mm256_min_epi32(a.r[0], a.r[1]);
+    const __m128i q = _mm_min_epi32(_mm256_castsi256_si128(half), _mm256_extracti128_si256(half, 1));
+#else
+    const __m128i q = xsimd::min(xsimd::min(a.r[0], a.r[1]), xsimd::min(a.r[2], a.r[3]));
+#endif
+    alignas(16) std::int32_t v[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(v), q);
+    const std::int32_t x = v[0] < v[1] ? v[0] : v[1], y = v[2] < v[3] ? v[2] : v[3];
+    return x < y ? x : y;
+}
+/// ~a turns the order round.
+OBSCURA_INLINE std::int32_t highest(const I32& a) {
+    return ~lowest(a ^ splat_as<I32>(std::int32_t{-1}));
+}
+
 }  // namespace
 }  // namespace obscura::OBSCURA_ISA

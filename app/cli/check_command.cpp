@@ -19,6 +19,7 @@
 #include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
+#include "app/scene/rules_shadow.h"
 #include "app/scene/stereo_settings.h"
 #include "core/count_text.h"
 #include "raster/view.h"
@@ -83,20 +84,34 @@ bool open_casters(const Mesh& mesh) {
     return false;
 }
 
-/// `light`: its resolution as found.
+/// What exact shadows take, in triangles and samples; seconds are the machine's.
+std::string exact_text(const SceneLight& light, const Scene& scene) {
+    const auto samples = std::int64_t{scene.render.width} * scene.render.height * scene.render.samples;
+    return fmt::format(
+        ", shadows of the picture's own samples, exact: {} to put in order{}, up to {} to look up",
+        count_text(scene.mesh.triangles.size(), "triangle"),
+        shadow_map_count(light) > 1 ? fmt::format(" in {} views", shadow_map_count(light)) : "",
+        count_text(static_cast<std::size_t>(samples), "sample"));
+}
+
+/// `light`: its resolution as found. `reason`: for its method.
 std::string light_text(const SceneLight& light, const std::optional<FoundResolution>& found,
-                       const Scene& scene) {
+                       const Scene& scene, const std::string& reason) {
     std::string out = fmt::format("light     {}: {}", light.light.id, light_kind_name(light.light.kind));
     if (light.light.below_horizon) out += ", below the horizon in the first frame";
     const int maps = shadow_map_count(light);
     if (maps == 0) return out + ", no shadows\n";
+    const std::string why =
+        fmt::format("          {}: {}\n", name_of(shadow_method_words, light.shadow.method), reason);
+    if (light.shadow.method == ShadowMethod::exact) return out + exact_text(light, scene) + '\n' + why;
     const bool dense = light.shadow.method == ShadowMethod::map;
     out += fmt::format(", {} {} shadow map{}", maps, dense ? "dense" : "compressed", maps == 1 ? "" : "s");
-    if (light.shadow.resolution == auto_resolution) return out + ", resolution auto\n";
+    if (light.shadow.resolution == auto_resolution) return out + ", resolution auto\n" + why;
     const int n = light.shadow.resolution;
     out += fmt::format(" of {} x {}{}, filter {} x {}{}", n, n, texel_text(light, scene),
                        light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
     out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(shadow_map_bytes(light)));
+    out += why;
     if (found) out += fmt::format("          {}\n", resolution_text(*found));
     if (found && found->capped) out += fmt::format("note      {}\n", capped_text(light, *found));
     if (!dense && light.shadow.receivers == Receivers::any && open_casters(scene.mesh)) {
@@ -113,7 +128,8 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
 std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const Exec& exec) {
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const SceneLight& light) {
-        return casts_shadows(light) && light.shadow.resolution == auto_resolution;
+        return casts_shadows(light) && light.shadow.method == ShadowMethod::compressed &&
+               light.shadow.resolution == auto_resolution;
     });
     if (!any || scene.mesh.triangles.empty()) return found;
     FrameCache cache;
@@ -163,8 +179,9 @@ std::string check_report(const CheckOptions& options) {
     // Before resolutions are found, as rendering tells it.
     const MemoryEstimate memory = estimate_memory(scene);
     const auto found = find_resolutions(scene, Exec{});
+    const auto lights = subtables(document.root, "light");
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        out += light_text(scene.lights[i], found[i], scene);
+        out += light_text(scene.lights[i], found[i], scene, shadow_method_reason(document.root, *lights[i]));
     out += lens_text(scene.optics, scene.render);
     if (document.root.has("stereo")) {
         out += stereo_text(stereo_settings(document, scene, scene_frames(document).first, access), scene);

@@ -33,10 +33,10 @@ std::int64_t picture_bytes(const RenderSettings& render, const FrameOptions& wan
 
 /// What the threads hold: a tile each, and in shadow maps the layers of one. Layers begin at 12 per texel (8,
 /// and half as many again) and grow only where more surfaces lie behind one another.
-std::int64_t thread_bytes(bool shadows) {
+std::int64_t thread_bytes(bool maps) {
     constexpr std::int64_t layer_bytes =
         std::int64_t{layer_tile_texels} * layers_in_place * 3 / 2 * (sizeof(LayerKey) + sizeof(std::int32_t));
-    return hardware_threads() * (std::int64_t{sizeof(TileWork)} + (shadows ? layer_bytes : 0));
+    return hardware_threads() * (std::int64_t{sizeof(TileWork)} + (maps ? layer_bytes : 0));
 }
 
 /// Tables of surfaces and the camera's setup, which serve every step.
@@ -67,21 +67,23 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         for (const auto& level : texture.levels)
             e.textures += static_cast<std::int64_t>(level.pixels.size() * sizeof(Vec3f));
     }
-    bool shadows = false;
+    bool maps = false;
     std::int64_t dense = 0;  // whole blocks, which leave nothing over
     for (const SceneLight& light : lights) {
         const std::int64_t bytes = built_map_bytes(light, scene.render);
         e.shadow_maps += bytes;
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
-        shadows |= light.shadow.method != ShadowMethod::none;
+        maps |= light.shadow.method == ShadowMethod::map || light.shadow.method == ShadowMethod::compressed;
     }
+    e.shadow_maps += exact_casters_bytes(mesh, lights);
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
-    const std::int64_t making = shadow_work_bytes(mesh, lights, scene.render);
+    const std::int64_t making =
+        std::max(shadow_work_bytes(mesh, lights, scene.render), exact_work_bytes(mesh, lights));
     const std::int64_t picture = picture_bytes(scene.render, known.channels) +
                                  glare_bytes(scene.optics, scene.render, lamp_count(scene), known.bright_px);
-    e.frame = prepared_bytes(mesh, scene.render) + dense_setup_bytes(mesh, lights) + thread_bytes(shadows) +
-              std::max(making, making / 4 + picture);
+    e.frame = prepared_bytes(mesh, scene.render) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
+              exact_tiles_bytes(lights) + std::max(making, making / 4 + picture);
     e.frame += allocator_bytes(e.total() - dense);
     return e;
 }

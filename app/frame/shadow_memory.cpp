@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/frame/exact_tile.h"
 #include "app/frame/needed_texels.h"
+#include "core/parallel.h"
 #include "hierarchy/build_memory.h"
 #include "hierarchy/tree_code.h"
+#include "raster/exact/casters.h"
 #include "raster/gbuffer.h"
+#include "raster/setup_memory.h"
 #include "raster/shadow_map.h"
 
 namespace obscura {
@@ -47,18 +51,45 @@ std::int64_t top_bytes(const SceneLight& light) {
 
 }  // namespace
 
+std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+    std::int64_t bytes = 0;
+    for (const SceneLight& light : lights) {
+        if (light.shadow.method != ShadowMethod::exact) continue;
+        // Triangles at the borders of six views are in several of them.
+        const bool six = shadow_view_count(light.light.kind) > 1;
+        bytes += casters_bytes(six ? mesh.triangles * 5 / 4 : mesh.triangles);
+    }
+    return bytes;
+}
+
+std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+    const bool any = std::any_of(lights.begin(), lights.end(), [](const SceneLight& light) {
+        return light.shadow.method == ShadowMethod::exact;
+    });
+    return any ? casters_sorting_bytes(mesh.triangles) : 0;
+}
+
+std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights) {
+    const bool any = std::any_of(lights.begin(), lights.end(), [](const SceneLight& light) {
+        return light.shadow.method == ShadowMethod::exact;
+    });
+    return any ? hardware_threads() * exact_tile_bytes(lights.size()) : 0;
+}
+
 int shadow_map_count(const SceneLight& light) {
     if (light.shadow.method == ShadowMethod::none) return 0;
     return shadow_view_count(light.light.kind);
 }
 
 std::int64_t shadow_map_bytes(const SceneLight& light) {
+    if (light.shadow.method == ShadowMethod::exact) return 0;
     if (light.shadow.method == ShadowMethod::map)
         return dense_map_bytes(light.light.kind, light.shadow.resolution);
     return shadow_map_count(light) * expected_nodes(light.shadow) * node_bytes + top_bytes(light);
 }
 
 std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& render) {
+    if (light.shadow.method == ShadowMethod::exact) return 0;
     if (!builds_parts(light.shadow)) return shadow_map_bytes(light);
     return built_nodes(light, render) * node_bytes + top_bytes(light);
 }
@@ -93,7 +124,7 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
     return lists + std::max(work, most * 2 * word_bytes);
 }
 
-std::int64_t dense_setup_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+std::int64_t kept_setup_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
     std::int64_t bytes = 0;
     for (const SceneLight& light : lights) {
         const int side = light.shadow.resolution;
@@ -101,6 +132,7 @@ std::int64_t dense_setup_bytes(const MeshSize& mesh, std::span<const SceneLight>
             bytes =
                 std::max(bytes, setup_bytes(mesh) + bin_bytes(mesh.triangles, side, side, frame_tile_side));
         }
+        if (light.shadow.method == ShadowMethod::exact) bytes = std::max(bytes, setup_bytes(mesh));
     }
     return bytes;
 }

@@ -9,6 +9,13 @@
 
 namespace obscura {
 
+/// What exact shadows of the lights keep beside the mesh: casters in order, expected for point lights, whose
+/// six views share them out; and what ordering them takes meanwhile.
+std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
+std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
+/// Of the tiles that threads have in work.
+std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights);
+
 /// Maps of a light: none without shadows, six for a point light; and the bytes that lookups read of them when
 /// all of them is built, exact for dense maps, expected for compressed ones.
 int shadow_map_count(const SceneLight& light);
@@ -26,7 +33,7 @@ std::int64_t expected_squares(const ShadowSettings& shadow, std::int64_t maps, c
 /// of them, and one light's construction at a time.
 std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights,
                                const RenderSettings& render);
-/// Of these, what is kept with the frame for the next: the setup of dense maps.
-std::int64_t dense_setup_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
+/// What is kept with the frame for the next: the setup of dense maps and exact shadows.
+std::int64_t kept_setup_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
 
 }  // namespace obscura

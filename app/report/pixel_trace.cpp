@@ -2,15 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
 #include "app/frame/shadows.h"
 #include "app/scene/light_kinds.h"
+#include "core/count_text.h"
 #include "core/num.h"
 #include "filters/shadow_lookup.h"
 #include "filters/tonemap.h"
 #include "raster/depth_tile.h"
+#include "raster/exact/exact_shadow.h"
 #include "raster/layers.h"
 #include "raster/shade_terms.h"
 #include "raster/surface.h"
@@ -47,6 +50,7 @@ class PixelStory {
     void tell_surface(int at);
     void tell_barycentrics(std::uint32_t triangle, Vec3f position);
     void tell_material(int at);
+    void tell_exact(const TileLight& light, int at);
     void tell_light(const TileLight& light, std::size_t shadow, int at);
     void tell_lookup(const TileLight& light, std::size_t shadow, int at);
     bool is(const std::uint32_t* masks, int at) const { return (masks[at / 16] >> (at & 15) & 1u) != 0; }
@@ -149,6 +153,46 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
     say("      visibility {:.6g}", look.visibility);
 }
 
+/// The block's points, in the form that exact shadows ask for.
+void PixelStory::tell_exact(const TileLight& light, int at) {
+    const SurfaceBlock& s = work_->surface;
+    std::vector<std::uint32_t> face(block_samples, 0);
+    for (int i = 0; i < block_samples; ++i) {
+        if (is(s.covered, i)) face[static_cast<std::size_t>(i)] = scene_.mesh.face[s.triangle[i]];
+    }
+    const ExactPoints points{block_samples, s.px, s.py,        s.pz,      s.gx,
+                             s.gy,          s.gz, face.data(), s.covered, s.thin};
+    const ref::ExactShadow shadow = ref::exact_shadow(points, *light.exact, at);
+    std::fill_n(work_->visibility, block_samples, 0.0f);
+    work_->visibility[at] = shadow.lit ? 1.0f : 0.0f;
+    if (!shadow.asks) {
+        say("      exact: the face looks away, visibility 0");
+        return;
+    }
+    if (!shadow.on_map) {
+        say("      exact: {}, visibility 1",
+            light.exact->directional ? "beyond everything that casts a shadow" : "before the near plane");
+        return;
+    }
+    say("      exact: view {} of {}, step ({}, {}) of {} a side, place uncertain by {:.3g} m", shadow.view,
+        light.exact->views, shadow.x, shadow.y, light.exact->view[shadow.view].steps, shadow.uncertain_m);
+    if (shadow.lit) {
+        say("        nothing stands between, visibility 1");
+        return;
+    }
+    const Mesh& mesh = scene_.mesh;
+    const std::string object =
+        mesh.objects.empty()
+            ? ""
+            : fmt::format(" of object \"{}\"", mesh.objects[mesh.object[shadow.triangle]].name);
+    say("        {} darken it; nearest is triangle {}{}, {:.6g} m along the light; the sample lies {:.6g} m "
+        "behind "
+        "its plane",
+        count_text(static_cast<std::size_t>(shadow.triangles), "triangle"), shadow.triangle, object,
+        shadow.distance_m, shadow.behind_m);
+    say("      visibility 0");
+}
+
 void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) {
     const Light& source = scene_.lights[light.scene_light].light;
     const ref::LightTerms terms = ref::light_terms(work_->surface, light.shade, work_->shade, at);
@@ -159,10 +203,12 @@ void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) 
         tell_lookup(light, shadow, at);
         ref::pcf_block(work_->surface, *light.pcf, work_->visibility);
     }
+    if (light.exact) tell_exact(light, at);
     say("      per irradiance: diffuse {}, specular {}, through {}", text_of(terms.diffuse),
         text_of(terms.specular), text_of(terms.through));
     const Vec3f before = radiance(at);
-    ref::shade_light(work_->surface, light.shade, light.pcf ? work_->visibility : nullptr, work_->shade);
+    ref::shade_light(work_->surface, light.shade, light.casts_shadows() ? work_->visibility : nullptr,
+                     work_->shade);
     say("      adds {}", text_of(radiance(at) - before));
 }
 
@@ -183,7 +229,7 @@ Vec3f PixelStory::sample(int x, int y, SamplePosition position) {
     std::size_t shadow = 0;
     for (const TileLight& light : tiles_.lights) {
         tell_light(light, shadow, at);
-        shadow += light.pcf ? 1 : 0;
+        shadow += light.casts_shadows() ? 1 : 0;
     }
     return radiance(at);
 }

@@ -33,6 +33,8 @@ void put_counts(JsonWriter& json, const FrameStats& s) {
     json.member("triangles", s.triangles).member("records", s.records).member("bin_items", s.bin_items);
     json.member("samples", s.samples).member("covered_samples", s.covered_samples);
     json.member("shadow_maps", s.shadow_maps).member("shadow_bytes", s.shadow_bytes);
+    json.member("exact_samples", s.exact.samples).member("exact_groups", s.exact.groups);
+    json.member("exact_triangles", s.exact.triangles);
     json.end_object();
 }
 
@@ -55,7 +57,12 @@ std::int64_t count(std::uint64_t n) {
 void put_light(JsonWriter& json, const LightShadowStats& s) {
     json.begin_object();
     json.member("light", s.light).member("method", name_of(shadow_method_words, s.method));
-    json.member("resolution", s.resolution).member("views", s.views).member("bytes", count(s.bytes));
+    if (s.method == ShadowMethod::exact) {
+        json.member("casters", s.casters);
+    } else {
+        json.member("resolution", s.resolution);
+    }
+    json.member("views", s.views).member("bytes", count(s.bytes));
     json.member("kept", s.kept).member("lookup_s", s.lookup_s);
     if (s.found) {
         json.member("magnification", s.found->magnification).member("capped", s.found->capped);

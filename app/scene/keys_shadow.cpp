@@ -19,28 +19,34 @@ namespace {
 /// Without method = "compressed" the rules keep its keys out; with it they supply what is not given.
 const KeyRows<ShadowSettings>& shadow_rows() {
     static const KeyRows<ShadowSettings> rows{
-        word_row(&ShadowSettings::method, shadow_method_words, "method",
-                 "none: the light passes through everything. map: a dense map. compressed: a tree of depth "
-                 "intervals, which gives the same shadows at resolutions far beyond."),
+        word_row_if_given(
+            &ShadowSettings::method, shadow_method_words, "method",
+            "none: the light passes through everything. exact: what casts shadows is rasterized onto the "
+            "picture's own samples; no texels, no filter, edges as sharp as the samples. map: a dense map. "
+            "compressed: a tree of depth intervals, which gives a map's shadows at resolutions far beyond. "
+            "When not given: compressed where a key that only maps have is given, or where the light "
+            "stands still for 200 frames or more, which is when a tree pays; else exact. `obscura check` "
+            "tells which, and why."),
         count_or_word_row(
             &ShadowSettings::resolution, "auto", auto_resolution,
             integer_key(
                 "resolution",
-                "Texels per side of a map, at most 16384 with method \"map\", whose default is 4096; "
+                "Maps: texels per side, at most 16384 with method \"map\", whose default is 4096; "
                 "points use six maps. \"auto\", the default otherwise: the smallest that the picture "
                 "needs. The map of a parallel light covers the whole scene; `obscura check` tells the size "
                 "of a texel.")
                 .one_of({16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768, 65536, 131072,
                          262144, 524288, 1048576})),
-        key_row(&ShadowSettings::filter_px,
-                integer_key("filter_px",
-                            "Side of the percentage-closer filter, in texels; with method \"map\" 1, 3 or 5.")
-                    .one_of({1, 3, 5, 7, 9, 11, 13, 15})),
-        key_row(
+        key_row_if_given(&ShadowSettings::filter_px,
+                         integer_key("filter_px",
+                                     "Maps: side of the percentage-closer filter, in texels; with method "
+                                     "\"map\" 1, 3 or 5. 3 when not given.")
+                             .one_of({1, 3, 5, 7, 9, 11, 13, 15})),
+        key_row_if_given(
             &ShadowSettings::normal_offset_texels,
-            number_key(
-                "normal_offset_texels",
-                "Moves receivers on open surfaces towards the light; only receivers = \"any\" may need it.")
+            number_key("normal_offset_texels",
+                       "Maps: moves receivers on open surfaces towards the light; only receivers "
+                       "= \"any\" may need it. 0 when not given.")
                 .in({0, 100})),
         word_row_if_given(&ShadowSettings::receivers, receivers_words, "receivers",
                           "As in [render], whose value is the default."),

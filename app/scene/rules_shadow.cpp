@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
 #include "app/scene/validate.h"
@@ -13,19 +17,49 @@ using Sources = std::vector<std::string>;
 
 constexpr const char* compressed_keys[] = {"scope",  "filter",     "max_magnification",
                                            "layout", "top_levels", "cache"};
+constexpr const char* map_keys[] = {"resolution", "filter_px", "normal_offset_texels"};
 constexpr std::int64_t dense_default = 4096, most_dense_filter_px = 5;
 
 void set_default(SceneTable& table, const char* key, SceneValue value) {
     if (!table.has(key)) table.set(key, std::move(value));
 }
 
-void refuse_compressed_keys(const SceneTable& settings, const Sources& sources) {
-    for (const char* key : compressed_keys) {
+template <std::size_t n>
+void refuse_keys(const SceneTable& settings, const char* const (&keys)[n], const char* needs,
+                 const Sources& sources) {
+    for (const char* key : keys) {
         if (settings.has(key)) {
-            fail_at(settings.find(key)->place, sources,
-                    fmt::format("'{}' needs method = \"compressed\"", key));
+            fail_at(settings.find(key)->place, sources, fmt::format("'{}' needs {}", key, needs));
         }
     }
+}
+
+template <std::size_t n>
+bool has_any(const SceneTable& settings, const char* const (&keys)[n]) {
+    return std::any_of(std::begin(keys), std::end(keys), [&](const char* key) { return settings.has(key); });
+}
+
+bool has_keyframes(const SceneTable& root, const SceneTable& light) {
+    const auto keyframes = subtables(subtable(root, "frames"), "light");
+    return std::any_of(keyframes.begin(), keyframes.end(),
+                       [&](const SceneTable* k) { return text(*k, "id") == text(light, "id"); });
+}
+
+/// What shadows a light gets that names no method. Keys that only maps have ask for one. Else one frame, or
+/// frames in which the light or what it shines on changes, have their own samples shaded; a tree pays where
+/// both stand still for long.
+ShadowMethod planned_method(const SceneTable& settings, bool cached, bool light_moves, int frames) {
+    if (has_any(settings, compressed_keys) || has_any(settings, map_keys) || cached ||
+        settings.has("receivers")) {
+        return ShadowMethod::compressed;
+    }
+    return light_moves || frames < tree_break_even_frames ? ShadowMethod::exact : ShadowMethod::compressed;
+}
+
+void complete_map(SceneTable& settings) {
+    static const ShadowSettings d;
+    set_default(settings, "filter_px", value_of(std::int64_t{d.filter_px}));
+    set_default(settings, "normal_offset_texels", value_of(d.normal_offset_texels));
 }
 
 void complete_dense(SceneTable& settings, const Sources& sources) {
@@ -82,6 +116,8 @@ void order_keys(SceneTable& settings) {
 }  // namespace
 
 void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, const Sources& sources) {
+    const SceneTable& frames = subtable(root, "frames");
+    const auto range = parse_frame_range(text(frames, "range"));
     const SceneTable none;
     const SceneTable& shadows = root.has("shadow") ? subtable(root, "shadow") : none;
     const SceneEntry* cache = nullptr;
@@ -108,14 +144,54 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
             light.set("shadow", shadow->value);
         }
         auto& settings = std::get<SceneTable>(light.find("shadow")->value.data);
+        // Dumped documents name it, so that their planner is not asked again.
+        if (!settings.has("method")) {
+            const ShadowMethod method = planned_method(settings, cache != nullptr, has_keyframes(root, light),
+                                                       range ? range->count() : 1);
+            settings.set("method", value_of(name_of(shadow_method_words, method)));
+            // A tree for many frames serves all of them.
+            if (method == ShadowMethod::compressed && !has_any(settings, compressed_keys) &&
+                !has_any(settings, map_keys) && range && range->count() >= tree_break_even_frames) {
+                settings.set("scope", value_of("full"));
+            }
+        }
         set_default(settings, "receivers", value_of(text(subtable(root, "render"), "receivers").c_str()));
-        const std::string method = text(settings, "method");
-        if (method != "compressed") refuse_compressed_keys(settings, sources);
-        if (method == "map") complete_dense(settings, sources);
-        if (method == "compressed") complete_compressed(settings, cache, sources);
+        const ShadowMethod method = value_named(shadow_method_words, text(settings, "method"));
+        if (method != ShadowMethod::compressed)
+            refuse_keys(settings, compressed_keys, "method = \"compressed\"", sources);
+        if (method == ShadowMethod::exact)
+            refuse_keys(settings, map_keys, "method = \"map\" or \"compressed\"", sources);
+        if (method == ShadowMethod::map || method == ShadowMethod::compressed) complete_map(settings);
+        if (method == ShadowMethod::map) complete_dense(settings, sources);
+        if (method == ShadowMethod::compressed) complete_compressed(settings, cache, sources);
         order_keys(settings);
     }
     root.erase("shadow");
+}
+
+std::string shadow_method_reason(const SceneTable& root, const SceneTable& light) {
+    const SceneTable& settings = subtable(light, "shadow");
+    const auto given = [&](const char* key) {
+        return settings.has(key) && place_of(settings, key).source >= 0;
+    };
+    if (given("method")) return "as asked";
+    const auto range = parse_frame_range(text(subtable(root, "frames"), "range"));
+    const int frames = range ? range->count() : 1;
+    if (text(settings, "method") == name_of(shadow_method_words, ShadowMethod::compressed)) {
+        const auto first_given = [&](const auto& keys) {
+            const auto* key = std::find_if(std::begin(keys), std::end(keys), given);
+            return key == std::end(keys) ? nullptr : *key;
+        };
+        const char* key = first_given(map_keys);
+        if (key == nullptr) key = first_given(compressed_keys);
+        if (key == nullptr && given("receivers")) key = "receivers";
+        if (key != nullptr) return fmt::format("'{}' is of maps", key);
+        return fmt::format("a tree pays from {} frames on in which the light stands still, and there are {}",
+                           tree_break_even_frames, frames);
+    }
+    if (frames == 1) return "one frame";
+    if (has_keyframes(root, light)) return "the light changes from frame to frame";
+    return fmt::format("{} frames; a tree pays from {} on", frames, tree_break_even_frames);
 }
 
 }  // namespace obscura

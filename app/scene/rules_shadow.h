@@ -13,4 +13,8 @@ namespace obscura {
 void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids,
                    const std::vector<std::string>& sources);
 
+/// Why a light of a completed document casts its shadows as it does: "as asked", "'resolution' is of maps",
+/// "one frame", ...
+std::string shadow_method_reason(const SceneTable& root, const SceneTable& light);
+
 }  // namespace obscura

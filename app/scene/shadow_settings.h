@@ -9,7 +9,8 @@
 
 namespace obscura {
 
-/// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals.
+/// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals. `exact`:
+/// of the picture's own samples, without a map (raster/exact).
 enum class ShadowMethod { none, map, compressed, exact };
 /// Which part of a compressed map is built: what the frame's lookups ask for, or everything.
 enum class ShadowScope { frame, full };
@@ -29,10 +30,16 @@ inline constexpr Word<TreeLayout> tree_layout_words[] = {
 inline constexpr Word<Receivers> receivers_words[] = {{"any", Receivers::any},
                                                       {"static", Receivers::static_only}};
 
+/// From how many frames on a tree of all that a light sees pays, when no method is asked for: building one
+/// takes as long as looking up the samples of about so many frames exactly takes longer than in a tree
+/// (raster/exact/README.md has the measurements).
+constexpr int tree_break_even_frames = 200;
+
 constexpr int auto_resolution = 0;
 constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;
 
 struct ShadowSettings {
+    /// Scene files that name none get one from the rules; see tree_break_even_frames.
     ShadowMethod method = ShadowMethod::compressed;
     /// Texels per side, a power of two from least_map_resolution to most_dense_resolution (map) or
     /// most_map_resolution (compressed); or, compressed only, auto_resolution.

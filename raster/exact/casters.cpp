@@ -244,9 +244,13 @@ std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const E
 }
 
 std::int64_t casters_bytes(std::int64_t triangles) {
-    // A cache line and a sixteenth of a group of boxes, and a fifteenth of the latter for all levels above;
-    // two lists of 8 bytes while they are sorted.
-    return triangles * (64 + 20 + 2 + 16);
+    // A sixteenth of a group of boxes each, and a fifteenth of that for all levels above.
+    constexpr std::int64_t boxes = sizeof(CasterBoxes) / group;
+    return triangles * (std::int64_t{sizeof(CasterTriangle)} + boxes + boxes / 15 + 1);
+}
+
+std::int64_t casters_sorting_bytes(std::int64_t triangles) {
+    return triangles * 2 * std::int64_t{sizeof(std::uint64_t)};
 }
 
 ExactLight exact_light(const Light& light, std::span<const Casters> casters, const CameraRays& rays) {

@@ -32,9 +32,9 @@ struct Casters {
 std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const Exec& exec,
                                    TriangleSetup& scratch);
 
-/// Most bytes that these take for `triangles` triangles while they are built (beside setup_bytes()) and
-/// after.
+/// Bytes of so many triangles in order; and of what sorting takes meanwhile, beside setup_bytes().
 std::int64_t casters_bytes(std::int64_t triangles);
+std::int64_t casters_sorting_bytes(std::int64_t triangles);
 
 /// For kernels; `casters` must outlive it. `rays` are the camera's, of the picture that asks.
 ExactLight exact_light(const Light& light, std::span<const Casters> casters, const CameraRays& rays);

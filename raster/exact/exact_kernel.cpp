@@ -39,46 +39,12 @@ struct Bunch {
     alignas(64) double lowest[16];              ///< height above a plane below which it is behind it
     Extent extent;
     float z_low;
+    /// Middle and half of what the samples span, metres, relative to the eye; and the least that is uncertain
+    /// of one.
+    float middle[3], half[3], uncertain;
     std::uint32_t open;  ///< lanes that nothing has darkened yet
     bool one_face;       ///< all lanes have the first one's
 };
-
-OBSCURA_INLINE std::int32_t smallest(const I32& a) {
-    alignas(64) std::int32_t v[16];
-    store(v, a);
-    for (int half = 8; half > 0; half /= 2) {
-        for (int k = 0; k < half; ++k)
-            v[k] = least(v[k], v[k + half]);
-    }
-    return v[0];
-}
-OBSCURA_INLINE std::int32_t largest(const I32& a) {
-    alignas(64) std::int32_t v[16];
-    store(v, a);
-    for (int half = 8; half > 0; half /= 2) {
-        for (int k = 0; k < half; ++k)
-            v[k] = most(v[k], v[k + half]);
-    }
-    return v[0];
-}
-OBSCURA_INLINE float smallest(const F32& a) {
-    alignas(64) float v[16];
-    store(v, a);
-    for (int half = 8; half > 0; half /= 2) {
-        for (int k = 0; k < half; ++k)
-            v[k] = least(v[k], v[k + half]);
-    }
-    return v[0];
-}
-OBSCURA_INLINE float largest(const F32& a) {
-    alignas(64) float v[16];
-    store(v, a);
-    for (int half = 8; half > 0; half /= 2) {
-        for (int k = 0; k < half; ++k)
-            v[k] = most(v[k], v[k + half]);
-    }
-    return v[0];
-}
 
 OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
     const F32 ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero = splat(0.0f);
@@ -170,8 +136,17 @@ OBSCURA_INLINE void gather_bunch(const ExactPoints& points, const ExactLight& li
     store(to.lowest, splat(0.0) - to_f64(load(uncertain)));
     const I32 x = load(to.x), y = load(to.y), face = load(to.face);
     const F32 z = load(to.z);
-    to.extent = {smallest(x), largest(x), smallest(y), largest(y), largest(z)};
-    to.z_low = smallest(z);
+    to.extent = {lowest(x), highest(x), lowest(y), highest(y), highest(z)};
+    to.z_low = lowest(z);
+    to.uncertain = lowest(load(uncertain));
+    const float* const axis[3] = {px, py, pz};
+    for (int k = 0; k < 3; ++k) {
+        const F32 p = load(axis[k]);
+        const float low = lowest(p), high = highest(p);
+        to.middle[k] = 0.5f * (low + high);
+        // Half, and as much again as its rounding may be.
+        to.half[k] = 0.5f * (high - low) + 0x1p-22f * most(high, -low);
+    }
     to.open = (n >= 16 ? 0xffffu : (1u << n) - 1u);
     to.one_face = all(equal(face, splat(to.face[0])));
 }
@@ -274,14 +249,18 @@ OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, cons
     return dark;
 }
 
-/// Triangles near a whole block, with their boxes sixteen by sixteen.
+/// Triangles near many bunches, sixteen by sixteen as boxes are: what tells quickly that one darkens none of
+/// a bunch.
 struct Nearby {
     static constexpr int room = 256;
     CasterBoxes boxes[room / 16];
+    alignas(64) std::int32_t x[3][room], y[3][room];
+    alignas(64) float n[3][room], d[room];  ///< the plane, relative to the eye
     std::uint32_t triangle[room];
     int count = 0;
 
-    OBSCURA_INLINE void add(const CasterBoxes& from, std::uint32_t first, int k) {
+    OBSCURA_INLINE void add(const CasterTriangle& t, const double (&eye)[3], const CasterBoxes& from,
+                            std::uint32_t index, int k) {
         CasterBoxes& to = boxes[count / 16];
         const int i = count % 16;
         to.x_low[i] = from.x_low[k];
@@ -289,7 +268,13 @@ struct Nearby {
         to.y_low[i] = from.y_low[k];
         to.y_high[i] = from.y_high[k];
         to.z_low[i] = from.z_low[k];
-        triangle[count++] = first + static_cast<std::uint32_t>(k);
+        for (int c = 0; c < 3; ++c) {
+            x[c][count] = t.x[c];
+            y[c][count] = t.y[c];
+            n[c][count] = static_cast<float>(t.n[c]);
+        }
+        d[count] = static_cast<float>((t.n[0] * eye[0] + t.n[1] * eye[1]) + (t.n[2] * eye[2] + t.d));
+        triangle[count++] = index;
     }
     /// Places after the last hold nothing.
     OBSCURA_INLINE void close() {
@@ -298,6 +283,39 @@ struct Nearby {
             boxes[i / 16].x_high[i % 16] = -0x7fffffff;
         }
     }
+
+    /// Of triangles first .. first + 15 those that may darken something in the bunch. Floats, so generous by
+    /// their rounding.
+    OBSCURA_INLINE std::uint32_t may_darken(int first, const Bunch& s) const {
+        std::uint32_t may = overlapping(boxes[first / 16], s.extent);
+        if (may == 0) return 0;
+        // Nothing is behind the plane: its height above it is at least that of the middle less the reach.
+        const F32 n0 = load(n[0] + first), n1 = load(n[1] + first), n2 = load(n[2] + first);
+        const F32 offset = load(d + first);
+        const F32 height =
+            (n0 * splat(s.middle[0]) + n1 * splat(s.middle[1])) + (n2 * splat(s.middle[2]) + offset);
+        const F32 reach =
+            (abs(n0) * splat(s.half[0]) + abs(n1) * splat(s.half[1])) + abs(n2) * splat(s.half[2]);
+        const float size = (abs_of(s.middle[0]) + abs_of(s.middle[1])) + abs_of(s.middle[2]);
+        const F32 rounding = splat(0x1p-21f) * (splat(size) + abs(offset));
+        may &= bits(less(height - reach - rounding, splat(-0.99f * s.uncertain)));
+        if (may == 0) return 0;
+        // All of the bunch is outside of an edge.
+        const std::int32_t half_x = s.extent.x_high / 2 - s.extent.x_low / 2 + 1,
+                           half_y = s.extent.y_high / 2 - s.extent.y_low / 2 + 1;
+        const I32 mx = splat(s.extent.x_low + half_x), my = splat(s.extent.y_low + half_y);
+        const F32 hx = splat(static_cast<float>(half_x + 1)), hy = splat(static_cast<float>(half_y + 1));
+        for (int k = 0; k < 3 && may != 0; ++k) {
+            const int next = k == 2 ? 0 : k + 1;
+            const I32 xk = load(x[k] + first), yk = load(y[k] + first);
+            const F32 A = to_f32(yk - load(y[next] + first)), B = to_f32(load(x[next] + first) - xk);
+            const F32 across = A * to_f32(mx - xk), down = B * to_f32(my - yk);
+            const F32 slack = (abs(A) * hx + abs(B) * hy) + splat(0x1p-21f) * (abs(across) + abs(down));
+            may &= bits(less_equal(splat(0.0f), (across + down) + slack));
+        }
+        return may;
+    }
+    static OBSCURA_INLINE float abs_of(float v) { return v < 0 ? -v : v; }
 };
 
 OBSCURA_INLINE Extent united(const Extent& a, const Extent& b) {
@@ -306,7 +324,7 @@ OBSCURA_INLINE Extent united(const Extent& a, const Extent& b) {
 }
 
 /// Darkens the open lanes of `n` bunches, which are of one view.
-void darken(const ExactView& view, Bunch* bunch, int n, ExactCounts& counts) {
+void darken(const ExactView& view, const double (&eye)[3], Bunch* bunch, int n, ExactCounts& counts) {
     Extent all = bunch[0].extent;
     for (int b = 1; b < n; ++b)
         all = united(all, bunch[b].extent);
@@ -314,7 +332,10 @@ void darken(const ExactView& view, Bunch* bunch, int n, ExactCounts& counts) {
     bool complete = true;
     walk(view, all, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
         complete = nearby.count < Nearby::room;
-        if (complete) nearby.add(boxes, first, k);
+        if (complete) {
+            const std::uint32_t index = first + static_cast<std::uint32_t>(k);
+            nearby.add(view.triangles[index], eye, boxes, index, k);
+        }
         return complete;
     });
     nearby.close();
@@ -333,10 +354,9 @@ void darken(const ExactView& view, Bunch* bunch, int n, ExactCounts& counts) {
         }
         for (int g = 0; g < nearby.count && s.open != 0; g += 16) {
             ++counts.groups;
-            const CasterBoxes& boxes = nearby.boxes[g / 16];
-            for (std::uint32_t inside = overlapping(boxes, s.extent); inside != 0; inside &= inside - 1) {
-                const int k = __builtin_ctz(inside);
-                if (!test(nearby.triangle[g + k], boxes.z_low[k])) break;
+            for (std::uint32_t may = nearby.may_darken(g, s); may != 0; may &= may - 1) {
+                const int k = __builtin_ctz(may);
+                if (!test(nearby.triangle[g + k], nearby.boxes[g / 16].z_low[k])) break;
             }
         }
     }
@@ -383,7 +403,7 @@ void exact_darken(const ExactPoints& points, const ExactLight& light, const Exac
             gather_bunch(points, light, samples, order + next, members, bunch[n]);
             next += members;
         }
-        darken(light.view[view], bunch, n, counts);
+        darken(light.view[view], light.eye, bunch, n, counts);
         for (std::int32_t i = first; i < next; ++i) {
             const std::int32_t at = i - first;
             if ((bunch[at / lanes].open >> (at % lanes) & 1u) != 0) continue;
