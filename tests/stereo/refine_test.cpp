@@ -5,50 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <map>
 
 #include "scenes/shapes.h"
 #include "stereo/eye_mesh.h"
 #include "stereo/moved_mesh.h"
 #include "tests/raster/raster_solids.h"
-#include "tests/stereo/views.h"
+#include "tests/stereo/moved_stage.h"
 
 namespace obscura {
 namespace {
 
 using stereo_views::add;
+using stereo_views::Stage;
 using stereo_views::wall;
-
-/// A mesh, what the camera sees of it, and a map that differs from the original by `change` of column and
-/// row.
-struct Stage {
-    Mesh mesh;
-    Camera camera;
-    StereoRig rig;
-    int width = 320, height = 240, margin = 0;
-    MiddleView view;
-    DisparityMap optimised;
-    ReprojectParams params;
-    ReprojectStats stats;
-
-    Stage() {
-        camera.eye = {0, 0, 5};
-        camera.look_at = {0, 0, 0};
-        camera.near_m = 0.1;
-    }
-    MovedMesh moved(const std::function<double(double, double)>& change) {
-        view = stereo_views::middle_view(mesh, camera, width, height, margin, rig);
-        optimised = view.disparity;
-        for (int y = 0; y < view.height(); ++y) {
-            for (int x = 0; x < view.width(); ++x) {
-                if (view.triangle(x, y) != nothing_seen)
-                    optimised(x, y) += static_cast<float>(change(x + 0.5, y + 0.5));
-            }
-        }
-        return moved_mesh(mesh, camera, view, optimised, params, {Isa::ref, 1}, stats);
-    }
-};
 
 /// A moved triangle as its surface points project: disparity (left minus right), by world barycentrics.
 struct MovedTriangle {
@@ -123,72 +93,6 @@ EdgeWalks edge_walks(const Mesh& mesh, std::uint32_t component) {
         }
     }
     return walks;
-}
-
-/// Houses in a row, each an object and a closed solid.
-Mesh terrace(int houses) {
-    Mesh mesh;
-    for (int i = 0; i < houses; ++i)
-        add(mesh, box({0.5, 1.5, 1}), {0.5 * (i - 0.5 * (houses - 1)), 0, 0});
-    return mesh;
-}
-
-/// Pixels of an eye, `fine` times as many each way as the picture has, that show a wall between two houses,
-/// or nothing where a house is to either side.
-int leaks(const Stage& s, const MovedMesh& moved, Eye eye, int fine) {
-    const Mesh seen = eye_mesh(moved, eye_positions(moved, s.camera, s.height, s.rig, eye), {Isa::ref, 1});
-    Image<std::uint32_t> triangle;
-    Image<float> depth;
-    stereo_views::rasterize(seen, camera_view(s.camera, fine * s.width, fine * s.height), triangle, depth);
-    const auto [least, greatest] =
-        std::minmax_element(s.mesh.positions.begin(), s.mesh.positions.end(),
-                            [](const Vec3f& a, const Vec3f& b) { return a.x < b.x; });
-    const auto between = [&](std::uint32_t t) {
-        const auto& v = s.mesh.triangles[moved.source[t]].v;
-        const auto x = [&](int k) { return s.mesh.positions[v[k]].x; };
-        return x(0) == x(1) && x(1) == x(2) && x(0) > least->x && x(0) < greatest->x;
-    };
-    int count = 0;
-    for (int y = 0; y < triangle.height; ++y) {
-        for (int x = 1; x + 1 < triangle.width; ++x) {
-            const std::uint32_t t = triangle(x, y);
-            if (t != nothing_seen) {
-                count += between(t) ? 1 : 0;
-            } else {
-                count += triangle(x - 1, y) != nothing_seen && triangle(x + 1, y) != nothing_seen ? 1 : 0;
-            }
-        }
-    }
-    return count;
-}
-
-TEST(Refine, NothingShowsBetweenSolidsThatTouch) {
-    for (const double at : {0.0, 0.1, 1.0}) {
-        Stage s;
-        s.camera.eye = {at, 1, 6};
-        s.mesh = terrace(6);
-        Stage unedited = s;
-        const MovedMesh still = unedited.moved([](double, double) { return 0.0; });
-        const MovedMesh moved =
-            s.moved([](double x, double y) { return 5 * std::sin(x / 19) * std::cos(y / 23); });
-        EXPECT_GT(s.stats.triangles_out, 500);
-        EXPECT_GE(s.stats.within, 0.99);
-        for (const Eye eye : {Eye::left, Eye::right}) {
-            // Where walls are seen along themselves, corners that snap show a few of 64 samples per pixel.
-            EXPECT_LE(leaks(unedited, still, eye, 8), 4);
-            EXPECT_LE(leaks(s, moved, eye, 8), 20) << "150 to 260, when each house follows the map alone";
-        }
-    }
-}
-
-TEST(Refine, SolidsThatTouchPartWhereTheMapDoes) {
-    Stage s;
-    s.camera.eye = {0, 0, 6};
-    for (int i = 0; i < 2; ++i)
-        add(s.mesh, box({1, 1.5, 1}), {1.0 * i - 0.5, 0, 0});
-    const MovedMesh moved = s.moved([&](double x, double) { return x < 160 ? 0.0 : 1.5; });
-    for (std::size_t v = 0; v < s.mesh.positions.size(); ++v)
-        EXPECT_NEAR(moved.change_px[v], v < s.mesh.positions.size() / 2 ? 0.0f : 1.5f, 0.11f) << v;
 }
 
 TEST(Refine, LinearChangeOverOneTriangleNeedsNoCut) {
