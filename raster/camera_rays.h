@@ -13,6 +13,7 @@ struct CameraRays {
     double dir0[3], dir_x[3], dir_y[3];
     double origin0[3], origin_x[3], origin_y[3];
     double eye[3];     ///< world position that positions are relative to
+    float viewer[3];   ///< perspective: where surfaces are looked at from in shading; the eye itself: 0
     bool perspective;  ///< depth Z of the camera's View: z = z_scale / Z, or else z = z_scale Z + z_near
     float z_scale, z_near;
 };

@@ -21,7 +21,9 @@ OBSCURA_INLINE F32 let_in(const F32& veil, const F32& cosine) {
 }
 
 OBSCURA_INLINE Vec3x16 to_viewer(const SurfaceBlock& s, const CameraRays& rays, int at) {
-    Vec3x16 way = load3(s.px + at, s.py + at, s.pz + at);
+    // The background is seen in its direction, from anywhere.
+    const Vec3x16 viewer = select(mask_of(s.covered[at / 16]), splat3(rays.viewer), splat3(0.0f, 0.0f, 0.0f));
+    Vec3x16 way = load3(s.px + at, s.py + at, s.pz + at) - viewer;
     if (!rays.perspective) {
         way = splat3(static_cast<float>(rays.dir0[0]), static_cast<float>(rays.dir0[1]),
                      static_cast<float>(rays.dir0[2]));

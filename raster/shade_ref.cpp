@@ -27,8 +27,11 @@ float let_in(float veil, float cosine) {
 }
 
 Vec3f to_viewer(const SurfaceBlock& s, const CameraRays& rays, int at) {
+    // The background is seen in its direction, from anywhere.
+    const bool covered = (s.covered[at / 16] >> (at & 15) & 1u) != 0;
+    const Vec3f viewer = covered ? vec(rays.viewer) : Vec3f{0, 0, 0};
     const Vec3f way = rays.perspective
-                          ? Vec3f{s.px[at], s.py[at], s.pz[at]}
+                          ? Vec3f{s.px[at], s.py[at], s.pz[at]} - viewer
                           : Vec3f{static_cast<float>(rays.dir0[0]), static_cast<float>(rays.dir0[1]),
                                   static_cast<float>(rays.dir0[2])};
     return way * (-1.0f / std::sqrt(dot(way, way)));

@@ -146,10 +146,14 @@ void Bisection::cut(std::uint32_t t, std::vector<std::uint32_t>& changed) {
     if (triangles[t].edge[0] == none) return;
     if (crosses_near(triangles[t])) {
         for (const std::uint32_t e : triangles[t].edge) {
-            const double a = points[edges_[e].lo].map.z, b = points[edges_[e].hi].map.z;
-            const double plane = projection_.cut_m();
-            if ((a < plane) == (b < plane)) continue;
-            cut_edge(e, (plane - a) / (b - a), changed);
+            const MapPoint &lo = points[edges_[e].lo].map, &hi = points[edges_[e].hi].map;
+            // From what is behind to what may be drawn. An end that an earlier cut left on the plane, to
+            // rounding, is neither: cut there, an edge becomes a point and itself again, and what lies on
+            // its two sides would go on being cut apart.
+            const bool rises = !projection_.in_front(lo) && hi.z >= projection_.near_m;
+            const bool falls = !projection_.in_front(hi) && lo.z >= projection_.near_m;
+            if (!rises && !falls) continue;
+            cut_edge(e, (projection_.cut_m() - lo.z) / (hi.z - lo.z), changed);
             return;
         }
         return;

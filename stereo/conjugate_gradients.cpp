@@ -120,26 +120,27 @@ void add_solution(const GridHierarchy& h, const IterationVectors& w, const Exec&
         x(h.hubs[k].x, h.hubs[k].y) += static_cast<float>(w.x.hubs[k]);
 }
 
-/// What is left after a step of size `step`, from how steps have shrunk: a geometric series. Each further hub
-/// is an eigenvalue apart from the others, on which steps may pause and grow again; then the step before
-/// counts too, and no step is trusted to be the last.
+/// What is left after a step: the tail of a geometric series that shrinks as steps have, at the slower of
+/// their last two rates, and no faster than `fastest`. Hubs, masks and thin things are eigenvalues apart from
+/// the others, on which steps may pause and grow again; so half of the step before counts too, and no step is
+/// trusted to be nearly the last.
 class ErrorEstimate {
   public:
-    explicit ErrorEstimate(std::size_t hubs) : careful_(hubs > 1) {}
+    explicit ErrorEstimate(double fastest) : fastest_(fastest) {}
     double after(double step) {
         constexpr double slowest = 0.9;
-        const double bound = std::max(step, (careful_ ? 0.5 : 0.25) * before_);
-        double ratio = 1;
-        if (before_ > 0) ratio = earlier_ > 0 ? std::sqrt(step / earlier_) : step / before_;
+        double ratio = slowest;
+        if (before_ > 0) ratio = step / before_;
+        if (earlier_ > 0) ratio = std::max(ratio, std::sqrt(step / earlier_));
+        ratio = std::clamp(ratio, fastest_, slowest);
+        const double bound = std::max(step, 0.5 * before_);
         earlier_ = before_;
         before_ = step;
-        ratio = std::clamp(ratio, careful_ ? 0.3 : 0.02, slowest);
         return bound * ratio / (1 - ratio);
     }
 
   private:
-    bool careful_;
-    double before_ = 0, earlier_ = 0;
+    double fastest_, before_ = 0, earlier_ = 0;
 };
 
 }  // namespace
@@ -225,7 +226,8 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
     const std::vector<std::uint8_t>& valid = s.valid.pixels;
     const auto unknowns = static_cast<double>(valid.size()) -
                           static_cast<double>(std::count(valid.begin(), valid.end(), std::uint8_t{0}));
-    ErrorEstimate largest(h.hubs.size()), root_mean_square(h.hubs.size());
+    // A pause of few pixels hardly shows in the mean.
+    ErrorEstimate largest(0.4), root_mean_square(0.3);
     double alpha = 0, rz_before = 0, rz_first = 0;
     report.converged = false;
     while (!report.converged && report.iterations < params.max_iterations) {

@@ -75,6 +75,8 @@ MovedMesh moved_mesh(const Mesh& mesh, const Camera& camera, const MiddleView& v
     TrianglePixels pixels = triangle_pixels(view.triangle, triangles.size());
     gather_seen(seen, exec, vertices.points);
     fill_hidden(seen, triangles, pixels, exec, vertices.points);
+    // Each of two neighbours may miss by the tolerance.
+    join_touching(mesh, 2 * params.tolerance_px, vertices);
 
     Bisection surface(mesh, seen.projection, std::move(vertices), std::move(pixels));
     refine(seen, params, exec, surface, stats);

@@ -1,6 +1,8 @@
 #include "stereo/surface_points.h"
 
 #include <algorithm>
+#include <span>
+#include <tuple>
 
 #include "core/edges.h"
 #include "core/error.h"
@@ -66,6 +68,48 @@ UnionFind one_point(const Mesh& mesh) {
     return sets;
 }
 
+/// Several points at one position, in order of their changes.
+class Touching {
+  public:
+    explicit Touching(std::vector<SurfacePoint>& points) : points_(points) {}
+
+    /// Unites the points of `group` whose changes are within reach of the lowest of them, then of the lowest
+    /// of the others, and so on.
+    void join(std::vector<std::uint32_t>& group, double within_px, UnionFind& sets) {
+        std::sort(group.begin(), group.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tuple(points_[a].change_px, a) < std::tuple(points_[b].change_px, b);
+        });
+        for (std::size_t first = 0; first < group.size();) {
+            std::size_t end = first + 1;
+            while (end < group.size() && change(group[end]) - change(group[first]) <= within_px)
+                ++end;
+            if (end - first > 1) unite({group.data() + first, end - first}, sets);
+            first = end;
+        }
+    }
+
+  private:
+    double change(std::uint32_t p) const { return static_cast<double>(points_[p].change_px); }
+
+    void unite(std::span<const std::uint32_t> group, UnionFind& sets) {
+        const bool seen = std::any_of(group.begin(), group.end(), [&](auto p) { return points_[p].seen; });
+        double sum = 0;
+        int count = 0;
+        for (const std::uint32_t p : group) {
+            sets.unite(group[0], p);
+            if (points_[p].seen != seen) continue;
+            sum += change(p);
+            ++count;
+        }
+        for (const std::uint32_t p : group) {
+            points_[p].change_px = static_cast<float>(sum / count);
+            points_[p].seen = seen;
+        }
+    }
+
+    std::vector<SurfacePoint>& points_;
+};
+
 }  // namespace
 
 SurfacePoints surface_points(const Mesh& mesh, const MapProjection& projection, const Exec& exec) {
@@ -99,6 +143,42 @@ SurfacePoints surface_points(const Mesh& mesh, const MapProjection& projection, 
         }
     });
     return s;
+}
+
+void join_touching(const Mesh& mesh, double within_px, SurfacePoints& surface) {
+    // Points by position: of each the first vertex, its position's first vertex, and the points met there.
+    const std::vector<std::uint32_t> weld = weld_positions(mesh.positions);
+    std::vector<std::uint32_t> first_point(weld.size(), none), next(surface.points.size(), none);
+    UnionFind sets(surface.points.size());
+    std::vector<std::uint8_t> met(surface.points.size(), 0);
+    for (std::uint32_t v = 0; v < weld.size(); ++v) {
+        const std::uint32_t p = surface.of_vertex[v];
+        if (met[p] != 0) continue;
+        met[p] = 1;
+        next[p] = first_point[weld[v]];
+        first_point[weld[v]] = p;
+    }
+    Touching touching(surface.points);
+    std::vector<std::uint32_t> group;
+    for (const std::uint32_t first : first_point) {
+        if (first == none || next[first] == none) continue;
+        group.clear();
+        for (std::uint32_t p = first; p != none; p = next[p])
+            group.push_back(p);
+        touching.join(group, within_px, sets);
+    }
+
+    // The first of a set stays; numbers close up.
+    std::vector<std::uint32_t> kept(surface.points.size());
+    std::uint32_t count = 0;
+    for (std::uint32_t p = 0; p < kept.size(); ++p) {
+        const std::uint32_t root = sets.root(p);
+        kept[p] = root == p ? count++ : kept[root];
+        if (root == p) surface.points[kept[p]] = surface.points[p];
+    }
+    surface.points.resize(count);
+    for (std::uint32_t& p : surface.of_vertex)
+        p = kept[p];
 }
 
 }  // namespace obscura

@@ -29,4 +29,9 @@ struct SurfacePoints {
 /// component: solids that merely touch may part, the surface of none may tear. Changes are not yet filled.
 SurfacePoints surface_points(const Mesh& mesh, const MapProjection& projection, const Exec& exec);
 
+/// Makes one of points at one position whose changes differ by no more than `within_px`: solids that touch
+/// and were not told to part. Each would follow the map as well alone, but not to the bit, and between the
+/// two an eye would see what is behind. What is seen counts before what is guessed, of both kinds the mean.
+void join_touching(const Mesh& mesh, double within_px, SurfacePoints& surface);
+
 }  // namespace obscura

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "core/vec_arrays.h"
 #include "stereo/eye_mesh.h"
 
 namespace obscura {
@@ -133,6 +134,12 @@ bool render_eyes(const Scene& scene, const MovedMesh& moved, EyePositions positi
     std::vector<TileScene> pictures;
     pictures.push_back(eye_tiles(scene, moved, cache.tables, rig, Eye::left, exec, cache.left));
     pictures.push_back(eye_tiles(scene, moved, cache.tables, rig, Eye::right, exec, cache.right));
+    const Vec3d half =
+        look_basis(scene.camera.look_at - scene.camera.eye, scene.camera.up).right * (0.5 * rig.interaxial_m);
+    if (wanted.shading == EyeShading::eyes) {
+        set(pictures[0].rays.viewer, to_float(-half));
+        set(pictures[1].rays.viewer, to_float(half));
+    }
     const bool middle = wanted.middle_margin_px >= 0;
     if (middle) pictures.push_back(middle_tiles(scene, wanted.middle_margin_px, exec, cache));
     shared.setup_s = setup.seconds();
@@ -144,8 +151,6 @@ bool render_eyes(const Scene& scene, const MovedMesh& moved, EyePositions positi
     for (const LightShadow& shadow : cache.frame.shadows)
         shared.lights.push_back(shadow.stats);
 
-    const Vec3d half =
-        look_basis(scene.camera.look_at - scene.camera.eye, scene.camera.up).right * (0.5 * rig.interaxial_m);
     out.left.lens_offset_m = -half;
     out.right.lens_offset_m = half;
     const double step = middle ? 1.0 / 3 : 0.5;

@@ -14,6 +14,7 @@
 
 #include "app/frame/render_frame.h"
 #include "app/scene/scene.h"
+#include "app/scene/stereo_settings.h"
 #include "core/isa.h"
 #include "raster/surface.h"
 #include "stereo/middle_view.h"
@@ -67,6 +68,7 @@ struct EyePositions {
 };
 
 struct EyesWanted {
+    EyeShading shading = EyeShading::eyes;
     FrameOptions channels;      ///< without crop
     int middle_margin_px = -1;  ///< >= 0: the middle camera's picture, too, with so many columns more
 };

@@ -182,6 +182,7 @@ void render_pair(const Scene& scene, const StereoSettings& settings, const Stere
         return eye_positions(pair.moved, scene.camera, scene.render.height, settings.rig, eye);
     };
     EyesWanted wanted;
+    wanted.shading = settings.shading;
     wanted.channels = options.channels;
     if (settings.middle_picture) wanted.middle_margin_px = pair.view.margin_px;
     const std::int64_t other_bytes = pair.bytes - estimate_memory(scene).shadow_maps;

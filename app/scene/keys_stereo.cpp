@@ -18,6 +18,8 @@ constexpr Word<RemapKind> remap_words[] = {{"linear", RemapKind::linear},
                                            {"histogram", RemapKind::histogram},
                                            {"match", RemapKind::match}};
 
+constexpr Word<EyeShading> shading_words[] = {{"eyes", EyeShading::eyes}, {"middle", EyeShading::middle}};
+
 constexpr Range anywhere{-1e9, 1e9};
 constexpr Range weight_range{0, 1e6};
 // What floats hold beside the other weights.
@@ -255,6 +257,11 @@ const KeyRows<StereoSettings>& stereo_rows() {
     static const KeyRows<Settings> rows =
         rows_within(&Settings::rig, rig_rows()) +
         KeyRows<Settings>{
+            word_row(
+                &Settings::shading, shading_words, "shading",
+                "Whose view highlights and the mirrored sky are of. eyes: each eye's own, as two cameras "
+                "see them, behind or before the surface that mirrors. middle: the camera's own for both "
+                "eyes, so that they lie on surfaces."),
             count_or_word_row(
                 &Settings::margin_px, "auto", auto_margin,
                 integer_key(

@@ -18,8 +18,15 @@ namespace obscura {
 
 constexpr int auto_margin = -1;
 
+/// Whose view of a surface its shading is of: mirrored sky, highlights, what Fresnel takes from the rest.
+enum class EyeShading {
+    eyes,    ///< each eye's own: highlights float behind or before surfaces, as those of two cameras do
+    middle,  ///< the middle camera's for both: they lie on surfaces, as on a print
+};
+
 struct StereoSettings {
     StereoRig rig;
+    EyeShading shading = EyeShading::eyes;
     int margin_px = auto_margin;    ///< columns that the middle view has on either side of the picture; >= 0
     int map_scale = 1;              ///< the system is solved at 1 : 1, 2, 4 or 8
     bool warm_start = false;        ///< a frame is solved from the one before: faster, within the tolerance

@@ -55,6 +55,17 @@ inline EyePositions unedited(const Scene& scene, const StereoRig& rig) {
     return {positions_of(scene, rig, Eye::left, none), positions_of(scene, rig, Eye::right, none)};
 }
 
+/// The scene with its camera moved to an eye and its picture widened by `more` columns on either side.
+inline Scene beside(const Scene& scene, const StereoRig& rig, Eye eye, int more) {
+    Scene s = scene;
+    const Vec3d right = look_basis(scene.camera.look_at - scene.camera.eye, scene.camera.up).right;
+    const Vec3d step = right * ((eye == Eye::left ? -0.5 : 0.5) * rig.interaxial_m);
+    s.camera.eye = s.camera.eye + step;
+    s.camera.look_at = s.camera.look_at + step;
+    s.render.width += 2 * more;
+    return s;
+}
+
 /// One eye, ready for tiles.
 struct OneEye {
     OneEye(const Scene& scene, const StereoRig& rig, Eye eye, std::vector<Vec3f> seen)

@@ -94,6 +94,10 @@ TEST(StereoPair, WithoutEditsIsWhatTheRigSees) {
             differ += std::fabs(pixel(eyes.left, x, y).y - pixel(pair.eyes.left, x, y).y) > 1e-3f;
     }
     EXPECT_LE(differ, 10);  // vertices of other rounding
+
+    StereoSettings as_print = settings;
+    as_print.shading = EyeShading::middle;
+    EXPECT_NE(hash(pair_of(scene, as_print).eyes.left), hash(pair.eyes.left));
 }
 
 void expect_faithful(const StereoPair& pair) {

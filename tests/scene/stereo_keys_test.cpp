@@ -201,7 +201,7 @@ void add(Hasher& h, const StereoSettings& s) {
     h.value(s.edit.gradient_weight).value(s.edit.anchor_weight).value(s.edit.match_weight);
     h.value(s.edit.epsilon).value(s.edit.comfort.nearest_px).value(s.edit.comfort.farthest_px);
     h.value(s.edit.comfort_weight).value(s.edit.window_weight).value(s.edit.reset_inversions);
-    h.value(s.edit.interfaces).value(s.edit.window_inherited).value(s.edit.limit_folds);
+    h.value(s.edit.interfaces).value(s.edit.window_inherited).value(s.edit.limit_folds).value(s.shading);
     h.value(s.solver.method).value(s.solver.tolerance_max_px).value(s.solver.max_iterations);
     h.value(s.solver.sweeps).value(s.solver.half_storage).value(s.warm_start).value(s.reproject.tolerance_px);
     h.value(s.compare_remap.kind)
