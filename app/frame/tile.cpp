@@ -109,8 +109,8 @@ void add_block(const ShadeBlock& shade, int first_row, bool first, TileWork& wor
 
 TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosition sample, Isa isa,
                          TileWork& work) {
-    const TileRect tile{column * frame_tile_side,
-                        row * frame_tile_side,
+    const TileRect tile{scene.bins->region.x0 + column * frame_tile_side,
+                        scene.bins->region.y0 + row * frame_tile_side,
                         frame_tile_side,
                         frame_tile_side,
                         sample.x,

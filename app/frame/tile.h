@@ -25,7 +25,8 @@ struct TileLight {
     std::size_t scene_light = 0;  ///< index into Scene::lights
 };
 
-/// Everything the tiles of one frame have in common. Borrows; read only.
+/// Everything the tiles of one frame have in common. Borrows; read only. The picture is the view; the tiles
+/// are those of bins->region, which reaches past it on all sides by the margin that glare is taken from.
 struct TileScene {
     const TriangleSetup* setup = nullptr;
     const TileBins* bins = nullptr;
@@ -39,6 +40,9 @@ struct TileScene {
     ShadeSky sky;
     std::span<const SamplePosition> pattern;
     bool textured = false;  ///< some material has a texture
+
+    /// Whether the pixel is the picture's, not one of its margin.
+    bool in_picture(int x, int y) const { return x >= 0 && y >= 0 && x < view.width && y < view.height; }
 };
 
 /// Working memory of one tile: about 140 KiB, not initialised but for the last.
@@ -69,7 +73,7 @@ void block_surface(const TileScene& scene, const TileRect& tile, int first_row, 
 void uncover_outside(int width, int rows, SurfaceBlock& surface);
 
 /// Stages 1 and 2 of tile `index` for one sample of every pixel; calls visit(tile, first_row) with the
-/// surfaces of each block of rows in work.surface. Samples outside of the picture count as not covered.
+/// surfaces of each block of rows in work.surface. Samples outside of the margin count as not covered.
 template <class Visit>
 void walk_blocks(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
                  Visit&& visit) {
@@ -84,8 +88,8 @@ void walk_blocks(const TileScene& scene, std::size_t index, SamplePosition sampl
     }
 }
 
-/// The same, sample by sample: calls visit(x, y, at) for each pixel of the picture whose sample is on a
-/// surface: sample `at` of work.surface.
+/// The same, sample by sample: calls visit(x, y, at) for each pixel of the picture and its margin whose
+/// sample is on a surface: sample `at` of work.surface.
 template <class Visit>
 void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
                Visit&& visit) {

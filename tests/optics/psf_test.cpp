@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "optics/aperture_extent.h"
 #include "optics/aperture_shapes.h"
 
 namespace obscura {
@@ -268,6 +269,41 @@ TEST(Psf, CellsAreFineEnough) {
         }
         EXPECT_LT(mean, 0.01) << f_number;
         EXPECT_LT(worst, 0.01) << f_number;
+    }
+}
+
+TEST(Psf, LightPastALineFollowsFromTheBorder) {
+    // The kernel's own light beyond columns and rows, less what one so large has lost all around.
+    const auto measured = [](const Psf& psf, int from, int radius) {
+        double past = 0, all = 0;
+        for (int y = -radius; y <= radius; ++y) {
+            for (int x = -radius; x <= radius; ++x) {
+                const double light = luminance(psf, radius + x, radius + y);
+                all += light;
+                past += light * ((x >= from) + (x <= -from) + (y >= from) + (y <= -from)) / 4;
+            }
+        }
+        return past / all;
+    };
+    struct Case {
+        ApertureKind kind;
+        int blades;
+    };
+    for (const Case& c : {Case{ApertureKind::circle, 0}, Case{ApertureKind::iris, 8},
+                          Case{ApertureKind::iris, 7}, Case{ApertureKind::annulus, 0}}) {
+        const Aperture aperture = aperture_of(c.kind, 256, c.blades);
+        const int radius = 240;
+        const Psf psf = far_field_psf(aperture, lens(16, 4.4, radius), {});
+        const double cycles_per_texel = psf.plan.cycles_per_px / 256;
+        for (const int from : {4, 8, 16}) {
+            const double expected = light_past_line(aperture.mask.view(), (from - 0.5) * cycles_per_texel) -
+                                    light_past_line(aperture.mask.view(), (radius + 0.5) * cycles_per_texel);
+            const double ratio = measured(psf, from, radius) / expected;
+            EXPECT_LT(ratio, 1.15) << aperture_kind_name(c.kind) << " " << c.blades << " " << from;
+            // A telescope's thin vanes are known as borders only farther out.
+            if (c.kind == ApertureKind::annulus && from < 16) continue;
+            EXPECT_GT(ratio, 0.85) << aperture_kind_name(c.kind) << " " << c.blades << " " << from;
+        }
     }
 }
 
