@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/num.h"
+
 namespace obscura {
 
 namespace {
@@ -59,6 +61,24 @@ double transmitted_power(ImageView<const float> mask) {
         }
     }
     return sum;
+}
+
+double light_past_line(ImageView<const float> mask, double frequency) {
+    // Steps of the mask along both axes, closed beyond its sides: a straight border of any direction takes 4
+    // / pi times its length of them on the average.
+    double steps = 0;
+    for (int y = 0; y <= mask.height; ++y) {
+        for (int x = 0; x <= mask.width; ++x) {
+            const auto at = [&](int i, int j) {
+                const bool inside = i >= 0 && j >= 0 && i < mask.width && j < mask.height;
+                return inside ? static_cast<double>(mask(i, j)) : 0.0;
+            };
+            const double here = at(x, y);
+            steps += std::fabs(here - at(x - 1, y)) + std::fabs(here - at(x, y - 1));
+        }
+    }
+    const double border = steps * (num::pi / 4);
+    return border / (2 * num::pi * num::pi * num::pi * transmitted_power(mask) * frequency);
 }
 
 }  // namespace obscura

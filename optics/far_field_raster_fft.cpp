@@ -75,7 +75,7 @@ void far_field_raster_fft(ImageView<const float> mask, const NaturalTransform& t
         }
         OBSCURA_DISPATCH(exec.isa, store_columns16, blocks.data(), static_cast<int>(blocks.size()), t.rows(),
                          target);
-        if (first == 0) store_real_pair(re.data(), im.data(), {}, t.rows(), t.grid.u, t.u_texel, target);
+        if (first == 0) store_real_pair(re.data(), im.data(), 1, t.rows(), t.grid.u, t.u_texel, target);
     });
 }
 

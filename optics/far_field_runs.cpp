@@ -23,6 +23,7 @@
 #include "optics/far_field_chirp.h"
 #include "optics/far_field_methods.h"
 #include "optics/field/row_runs.h"
+#include "optics/low_columns.h"
 #include "optics/natural_transform.h"
 #include "optics/run_sums.h"
 
@@ -71,29 +72,24 @@ void fill_table(const RunsOfMask& m, int group, Isa isa, Scratch& s) {
     OBSCURA_DISPATCH(isa, edge_phases16, seeds, m.mirrored ? nullptr : s.table_re.data(), s.table_im.data());
 }
 
-/// Sum over the texels of a row (alternating: times (-1)^x), which differences of edges cannot give. Sums are
-/// as large as rows are long, those they share a transform with are mostly of order 1: each is scaled down to
-/// that, so that neither's rounding drowns the other.
-float row_sum(const RowRuns& runs, int y, bool alternating) {
+/// Sum over the texels of a row, each times (-1)^x: the column of half a cycle per texel.
+float alternating_sum(const RowRuns& runs, int y) {
     double sum = 0;  // thousands of equal terms would all round the same way in float
     for (auto r = static_cast<std::size_t>(runs.first[static_cast<std::size_t>(y)]);
          r < static_cast<std::size_t>(runs.first[static_cast<std::size_t>(y) + 1]); ++r) {
         const std::int32_t length = runs.end[r] - runs.begin[r];
         const double weight = static_cast<double>(runs.weight[r]);
-        if (!alternating)
-            sum += weight * length;
-        else if (length % 2 != 0)
-            sum += runs.begin[r] % 2 == 0 ? weight : -weight;
+        if (length % 2 != 0) sum += runs.begin[r] % 2 == 0 ? weight : -weight;
     }
     return static_cast<float>(sum);
 }
 
-/// The power of two that brings the alternating sums of all rows to 1 at most: they are small for most masks,
-/// as large as the others for gratings of one texel.
+/// The power of two that brings the alternating sums of all rows to 1 at most, as what they share a transform
+/// with: they are small for most masks, as large as rows are long for gratings of one texel.
 float alternating_scale_of(const RowRuns& runs, int height) {
     float most = 0, scale = 1;
     for (int y = 0; y < height; ++y)
-        most = std::max(most, std::fabs(row_sum(runs, y, true)));
+        most = std::max(most, std::fabs(alternating_sum(runs, y)));
     while (most * scale > 1)
         scale /= 2;
     return scale;
@@ -111,8 +107,8 @@ SpectrumBlock complex_group(const RunsOfMask& m, int group, Isa isa, Scratch& s,
     sum_rows(m, s.table_re.data(), isa, re);
     sum_rows(m, s.table_im.data(), isa, im);
     for (int y = 0; group == 0 && y < t.height; ++y) {
-        re[16 * y] = row_sum(m.runs, y, false) * row_sum_scale(t.grid.u);
-        im[16 * y] = row_sum(m.runs, y, true) * m.alternating_scale;
+        re[16 * y] = 0;  // see write_low_columns()
+        im[16 * y] = alternating_sum(m.runs, y) * m.alternating_scale;
     }
     fft16_forward(t.v_plan, re, im, isa);
     const std::vector<ColumnStrip>& strips = t.edge_strips[static_cast<std::size_t>(group)].strips;
@@ -125,8 +121,6 @@ SpectrumBlock mirrored_pair(const RunsOfMask& m, int group, std::optional<int> p
     const NaturalTransform& t = m.transform;
     fill_table(m, group, isa, s);
     sum_rows(m, s.table_im.data(), isa, re);
-    for (int y = 0; group == 0 && y < t.height; ++y)
-        re[16 * y] = row_sum(m.runs, y, false) * row_sum_scale(t.grid.u);
     if (partner) {
         fill_table(m, *partner, isa, s);
         sum_rows(m, s.table_im.data(), isa, im);
@@ -164,12 +158,13 @@ void column_batch(const RunsOfMask& m, int first, int last, Isa isa, Scratch& s,
     const int count = static_cast<int>(blocks.size());
     if (m.mirrored) {
         OBSCURA_DISPATCH(isa, store_real_columns16, blocks.data(), count, t.rows(), target);
-        return;
+    } else {
+        OBSCURA_DISPATCH(isa, store_columns16, blocks.data(), count, t.rows(), target);
+        if (first == 0)
+            store_real_pair(blocks[0].re, blocks[0].im, m.alternating_scale, t.rows(), t.grid.u, t.u_texel,
+                            target);
     }
-    OBSCURA_DISPATCH(isa, store_columns16, blocks.data(), count, t.rows(), target);
-    if (first == 0)
-        store_real_pair(blocks[0].re, blocks[0].im, {row_sum_scale(t.grid.u), m.alternating_scale}, t.rows(),
-                        t.grid.u, t.u_texel, target);
+    if (first == 0) write_low_columns(m.runs, m.mirrored, t, target);
 }
 
 }  // namespace

@@ -18,9 +18,10 @@ struct NaturalTransform {
     int width = 0, height = 0;  ///< of the mask
     FftPlan u_plan, v_plan;
     UnitRoots roots;  ///< of the period of u
+    ExactRoots u_roots, v_roots;
     /// Roots of lane * x, element 16 x + lane, for the edges x = 0 to width (and the same about the middle).
     std::vector<float> step_re, step_im, mirror_step_re, mirror_step_im;
-    AxisFactors u_texel, v_texel;  ///< see natural_grid.h
+    AxisFactors u_texel, v_texel, u_edge;  ///< see natural_grid.h
     /// Of every group of columns: for sums over texels, over edges, and real sums about the middle.
     std::vector<GroupStrips> texel_strips, edge_strips, mirror_strips;
 

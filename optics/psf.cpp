@@ -174,13 +174,19 @@ int wavelength_count(const Aperture& aperture, const PsfParams& params, double t
 /// Side of the cells that sample the power of a mask this wide, in cycles per texel: half a fringe of the
 /// aperture's extent, or a share of a pixel where that is less; for masks a power of two, which fast Fourier
 /// transforms serve.
-double cell_for(const PupilForm& form, const OpenExtent& extent, int side, double pixel, double tolerance) {
+double cell_for(const PupilForm& form, const OpenExtent& extent, int side, double pixel,
+                const PsfParams& params) {
     const double fringe = 1.0 / std::max(extent.width, extent.height);
-    // Constant power over cells is wrong by 0.3 (cell / fringe)^2 of the peak at worst. Pixels of many
-    // fringes need little more than one cell for each: the whole of |F|^2 is exact from one on.
-    const double finer = std::max(1.0, std::sqrt(0.01 / tolerance));
-    const double share = std::max(pixel / 8, std::min(pixel / 4, fringe / 8)) / finer;
-    const double most = std::min(share, std::clamp(pixel / (16 * finer), fringe / 2, 0.95 * fringe));
+    // Constant power over cells is wrong by 0.3 (cell / fringe)^2 of the peak at worst, where a pixel's
+    // border cuts them. Many wavelengths cut them everywhere, which evens out; lines do not.
+    constexpr double for_lines = 2;
+    const double lines = has_lines(params.light) ? for_lines : 1;
+    const double finer = std::max(1.0, std::sqrt(0.01 / params.tolerance));
+    const double share = std::max(pixel / 8, std::min(pixel / 5, fringe / 8)) / finer;
+    // Pixels of many fringes need little more than one cell for each: the whole of |F|^2 is exact from one
+    // on. But the fringes of straight edges, all alike, beat with cells of nearly their own width as slowly
+    // as pixels are wide; with cells of three quarters, every three fringes.
+    const double most = std::min(share, std::clamp(pixel / (16 * finer), fringe / 2, 0.75 * fringe)) / lines;
     if (form.closed_form) return most;
     double cell = 1;
     while (cell > most || cell * side > 1)
@@ -242,8 +248,7 @@ struct Sampling {
 Sampling sampling_of(const Wavelengths& wavelengths, const PupilForm& form, const OpenExtent& extent,
                      int width, int height, double power, const PsfParams& params) {
     Sampling s;
-    s.cell = cell_for(form, extent, std::max(width, height), wavelengths.reference_cycles / width,
-                      params.tolerance);
+    s.cell = cell_for(form, extent, std::max(width, height), wavelengths.reference_cycles / width, params);
     for (const SpectralSample& sample : wavelengths.samples)
         s.lights.push_back(
             {cycles_per_pixel(params, sample.wavelength_nm) / width, sample.xyz * (1 / power)});

@@ -238,6 +238,10 @@ double spectral_power(const LightSpectrum& light, double wavelength_nm) {
     return sum;
 }
 
+bool has_lines(const LightSpectrum& light) {
+    return !lines_of(light).empty();
+}
+
 Vec3d light_xyz(const LightSpectrum& light) {
     const Vec3d sum = integrate(light) * observer_scale();
     return sum * (1 / sum.y);

@@ -46,6 +46,9 @@ struct SpectralSample {
     Vec3d rgb;  ///< the same in linear sRGB; channels may be negative, single wavelengths lie outside
 };
 
+/// Whether it consists of single wavelengths.
+bool has_lines(const LightSpectrum& light);
+
 /// At most `count` >= 1 samples, at the middles of equal steps of 1 / wavelength: at a point of a pattern
 /// that scales with wavelength, fringes pass at an even rate so. Samples that hardly show (below 1e-3 of the
 /// strongest) are left out; lines are one sample each. The colours of all samples add up to the light's own,

@@ -94,22 +94,17 @@ GroupStrips complex_strips(const NaturalAxis& u, int group, const AxisFactors& f
     });
 }
 
-float row_sum_scale(const NaturalAxis& u) {
-    return 1.0f / static_cast<float>(u.period());
-}
-
 GroupStrips mirror_strips(const NaturalAxis& u, int group) {
     return group_strips(u, group, 0, [&](int column, int j, bool mirrored) {
         const std::int64_t index = u.first + column;
-        const float undo = 1 / row_sum_scale(u);
-        if (j == 0) return index == 0 ? ColumnFactor{undo, 0, undo * undo} : ColumnFactor{};
+        if (j == 0) return ColumnFactor{};
         // F = D / (2 pi i u); D is i times the sum here, and minus that for the mirrored frequency.
         const double size = 1 / (2 * num::pi * (static_cast<double>(index) / u.period()));
         return ColumnFactor{static_cast<float>(mirrored ? -size : size), 0, static_cast<float>(size * size)};
     });
 }
 
-void store_real_pair(const float* re, const float* im, const PairScales& scales, const SpectrumRows& rows,
+void store_real_pair(const float* re, const float* im, float scale, const SpectrumRows& rows,
                      const NaturalAxis& u, const AxisFactors& factors, const FieldTarget& target) {
     const int period = u.period(), row_period = 1 << rows.log2_period;
     for (int c = 0; c < u.count; ++c) {
@@ -117,7 +112,7 @@ void store_real_pair(const float* re, const float* im, const PairScales& scales,
         const bool first_of_pair = j == 0;
         if (!first_of_pair && 2 * j != period) continue;
         const auto column = static_cast<std::size_t>(c);
-        const float undo = 1 / (first_of_pair ? scales.sum : scales.alternating);
+        const float undo = first_of_pair ? 1.0f : 1 / scale;
         const float factor_re = undo * factors.re[column], factor_im = undo * factors.im[column];
         const float factor_power = undo * undo * factors.power[column];
         for (int r = 0; r < rows.count; ++r) {

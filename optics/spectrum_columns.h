@@ -30,23 +30,13 @@ struct ColumnFactor {
 /// store_real_pair).
 GroupStrips complex_strips(const NaturalAxis& u, int group, const AxisFactors& factors);
 
-/// What sums over the texels of a row are multiplied by before they are transformed together with others:
-/// about 1 / their length, a power of two.
-float row_sum_scale(const NaturalAxis& u);
-
 /// Columns of a mask that is the same left and right, of even width: the real sums over the runs of the
-/// imaginary part of e^(-2 pi i u x), x from the mask's middle; at j = 0 the sums of the rows times
-/// row_sum_scale().
+/// imaginary part of e^(-2 pi i u x), x from the mask's middle; nothing at j = 0, see optics/low_columns.h.
 GroupStrips mirror_strips(const NaturalAxis& u, int group);
 
-/// What sums were multiplied by before their transform.
-struct PairScales {
-    float sum = 1, alternating = 1;
-};
-
 /// The columns j = 0 and j = M / 2, whose sums are real: transformed together as lane 0 of the first group,
-/// one the real, the other the imaginary part; their scales are undone here.
-void store_real_pair(const float* re, const float* im, const PairScales& scales, const SpectrumRows& rows,
+/// one the real, the other the imaginary part, which was multiplied by `scale`: that is undone here.
+void store_real_pair(const float* re, const float* im, float scale, const SpectrumRows& rows,
                      const NaturalAxis& u, const AxisFactors& factors, const FieldTarget& target);
 
 /// Zeros in the columns congruent to M / 2: there a mask that is the same left and right, of even width, has

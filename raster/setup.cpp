@@ -337,9 +337,12 @@ void setup_triangles(const Mesh& mesh, const View& view, const SetupParams& para
     CHECK(mesh.objects.empty() || mesh.object.size() == mesh.triangles.size(),
           "every triangle needs its object");
     const Region& region = params.region;
-    CHECK(region.empty() || (region.x0 >= 0 && region.y0 >= 0 && region.width <= view.width - region.x0 &&
-                             region.height <= view.height - region.y0),
-          "the region must lie inside the view");
+    // Past the view it may reach as far as positions are kept, which the guard band is wider than by far.
+    constexpr int most_past = 1 << 16;
+    CHECK(region.empty() || (region.x0 >= -most_past && region.y0 >= -most_past &&
+                             region.width <= view.width + most_past - region.x0 &&
+                             region.height <= view.height + most_past - region.y0),
+          "the region must lie about the view");
     CHECK(view.width <= (1 << 20) && view.height <= (1 << 20));
     setup.blocks.clear();
     if (mesh.triangles.empty()) return;

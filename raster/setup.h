@@ -23,7 +23,7 @@ struct SetupParams {
     Culling culling = Culling::none;
     bool pair_faces = false;  ///< mark pairs (see TriangleRecord), for loops that need not know the triangle;
                               ///< lists of records then name only the first of a pair, as bin_records() does
-    Region region = {};       ///< leave out what lies outside these texels; empty = the whole view
+    Region region = {};  ///< leave out what lies outside these texels, up to 2^16 past the view; empty = it
     bool centre_samples_only = true;  ///< leave out what lies between texel centres (single-sample maps)
 };
 

@@ -9,6 +9,7 @@
 #include "app/cli/flags.h"
 #include "app/cli/messages.h"
 #include "app/cli/scene_flags.h"
+#include "app/frame/glare_margin.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
@@ -182,7 +183,7 @@ std::string check_report(const CheckOptions& options) {
     const auto lights = subtables(document.root, "light");
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         out += light_text(scene.lights[i], found[i], scene, shadow_method_reason(document.root, *lights[i]));
-    out += lens_text(scene.optics, scene.render);
+    out += lens_text(scene.optics, scene.render, glare_margin(scene));
     if (document.root.has("stereo")) {
         out += stereo_text(stereo_settings(document, scene, scene_frames(document).first, access), scene);
     }

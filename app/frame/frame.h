@@ -34,13 +34,14 @@ struct GlareStats {
     double psf_s = 0;                     ///< the lens's patterns; 0 when kept
     bool kept = false;                    ///< patterns of an earlier frame served
     bool fft = false;                     ///< else splats
-    std::int64_t sources = 0;             ///< pixels that clipped
+    int margin_px = 0;                    ///< rendered on every side for its light, and cropped
+    std::int64_t sources = 0;             ///< pixels that clipped, the margin's too
     int kernels = 0;                      ///< patterns: of the open lens, and of sources with their own
     std::int64_t own_kernel_sources = 0;  ///< pixels that see the lens partly hidden, or are out of focus
     int wavelengths = 0;
     double cycles_per_px = 0;     ///< cycles of the pupil's diameter, at the mean wavelength
     double captured = 0;          ///< share of the light that the kernel's square catches
-    double spread = 0, lost = 0;  ///< shares of the sources' light: left its pixel, left the picture
+    double spread = 0, lost = 0;  ///< shares of the sources' light: left its pixel, left the margin, too
     double blocked = 0;           ///< share that what stands before the lens keeps from it
     std::string reason;
 };

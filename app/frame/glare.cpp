@@ -15,6 +15,7 @@ OpticsSettings of_the_kernel(OpticsSettings optics) {
     const OpticsSettings d;
     optics.clip = d.clip;
     optics.bloom_scale = d.bloom_scale;
+    optics.margin_px = d.margin_px;
     optics.visibility = d.visibility;
     optics.visibility_samples = d.visibility_samples;
     optics.neighbourhood_px = d.neighbourhood_px;
@@ -74,6 +75,7 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
     const Stopwatch watch;
     GlareStats& stats = frame.stats.glare.emplace();
     const GlareParams params = glare_params(scene.optics, scene.render);
+    stats.margin_px = -frame.x0;
     const std::int64_t bright = count_bright(frame.radiance.view(), params.clip);
     if (bright == 0) {
         // Without a kernel: none is needed to find that there is nothing to do.
@@ -118,14 +120,15 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
 }
 
 void crop_frame(const Region& crop, Frame& frame) {
-    if (crop.x0 == 0 && crop.y0 == 0 && crop.width == frame.width && crop.height == frame.height) return;
-    crop_channel(crop, frame.radiance);
-    crop_channel(crop, frame.depth_m);
-    crop_channel(crop, frame.normal);
-    crop_channel(crop, frame.albedo);
-    crop_channel(crop, frame.object);
-    crop_channel(crop, frame.shift_px);
-    crop_channel(crop, frame.shadow);
+    if (crop.width == frame.width && crop.height == frame.height) return;
+    const Region part{crop.x0 - frame.x0, crop.y0 - frame.y0, crop.width, crop.height};
+    crop_channel(part, frame.radiance);
+    crop_channel(part, frame.depth_m);
+    crop_channel(part, frame.normal);
+    crop_channel(part, frame.albedo);
+    crop_channel(part, frame.object);
+    crop_channel(part, frame.shift_px);
+    crop_channel(part, frame.shadow);
     frame.x0 = crop.x0;
     frame.y0 = crop.y0;
     frame.width = crop.width;

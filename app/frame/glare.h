@@ -18,13 +18,15 @@ struct KeptPsf {
     int wavelengths = 0;
 };
 
-/// Spreads the light of the frame's bright pixels, when the scene has a lens; the frame is the whole picture.
+/// Spreads the light of the frame's bright pixels, when the scene has a lens; the frame is the whole picture
+/// with its margin.
 /// Nothing is computed when nothing clips. Fills stats.glare. Options: `progress` hears which share of the
 /// pattern is done; `cancel` ends it and leaves the frame incomplete.
 void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec& exec,
                      std::optional<KeptPsf>& kept, Frame& frame);
 
-/// Leaves of a whole picture's channels those pixels that lie in the crop.
+/// Leaves of a frame's channels those pixels that lie in the crop (of the whole picture, as the frame's x0
+/// and y0 are).
 void crop_frame(const Region& crop, Frame& frame);
 
 }  // namespace obscura

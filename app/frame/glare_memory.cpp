@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/frame/glare_margin.h"
 #include "app/frame/hidden_lamps.h"
 #include "app/frame/lamp_pixels.h"
 #include "app/frame/lens.h"
@@ -55,10 +56,11 @@ std::int64_t expected_kernels(const OpticsSettings& optics, std::int64_t lamps) 
     return 2 + std::min(own, static_cast<std::int64_t>(most_kernels) - 1);
 }
 
-std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, std::int64_t lamps,
-                         std::optional<std::int64_t> bright_px) {
+std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, int margin_px,
+                         std::int64_t lamps, std::optional<std::int64_t> bright_px) {
     if (!optics.enabled) return 0;
-    const std::int64_t pixels = std::int64_t{render.width} * render.height;
+    const RenderSettings wide = widened(render, margin_px);
+    const std::int64_t pixels = std::int64_t{wide.width} * wide.height;
     const std::int64_t bright = bright_px.value_or(pixels / pixels_per_bright_one);
     // First the open lens's pattern is made; then those of sources with their own; then the light is spread.
     const std::int64_t open = pattern_bytes(optics, render, false);
@@ -73,7 +75,7 @@ std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& ren
     }
     // A mask out of a file is the scene's, too, and there once more while it is made square.
     lists += 2 * static_cast<std::int64_t>(optics.mask.pixels.size()) * real;
-    const std::int64_t spread = spread_glare_bytes(bright, render.width, render.height, kernel_side(optics),
+    const std::int64_t spread = spread_glare_bytes(bright, wide.width, wide.height, kernel_side(optics),
                                                    glare_params(optics, render));
     const std::int64_t kept = expected_kernels(optics, lamps) * kernel_bytes(optics) + lists;
     return std::max(open + lists, kept + std::max({own, defocus_bytes(optics), spread}));

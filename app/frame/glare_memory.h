@@ -10,11 +10,12 @@ namespace obscura {
 
 /// Bytes beside the frame, from the scene's keys: kernels of the open lens, of lamps partly hidden and out of
 /// focus (expected_kernels()), and the largest of what making a pattern, making a near field and spreading
-/// the light take while the kernels are kept. `lamps`: objects that clip by themselves (lamp_count()); 0
+/// the light take while the kernels are kept. `margin_px`: of glare_margin().
+/// `lamps`: objects that clip by themselves (lamp_count()); 0
 /// where they are not known yet, and then their kernels are not counted. `bright_px`: pixels that glare;
 /// without a value a sixteenth of them all is expected.
-std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, std::int64_t lamps,
-                         std::optional<std::int64_t> bright_px);
+std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& render, int margin_px,
+                         std::int64_t lamps, std::optional<std::int64_t> bright_px);
 
 /// Kernels that are kept until the light is spread: of every step of focus, and of a quarter of the lamps
 /// (few stand behind something) visibility_samples each.

@@ -46,14 +46,16 @@ std::map<std::uint32_t, std::vector<LampPixel>> lamp_pixels(const Scene& scene, 
                                                             double clip) {
     std::map<std::uint32_t, std::vector<LampPixel>> found;
     const std::vector<bool> lamps = lamps_of(scene, clip);
-    const CameraRays rays = camera_rays(scene.camera, frame.width, frame.height);
+    // The frame is the picture with its margin, equal on opposite sides.
+    const CameraRays rays =
+        camera_rays(scene.camera, frame.width + 2 * frame.x0, frame.height + 2 * frame.y0);
     for (int y = 0; y < frame.height; ++y) {
         for (int x = 0; x < frame.width; ++x) {
             int i = x, j = y;
             if (!clips(frame, x, y, clip) || !lamp_near(frame, lamps, i, j)) continue;
             // The lamp's depth in the pixel's own direction.
-            const double z = static_cast<double>(frame.depth_m(i, j)), X = x + 0.5 + frame.shift_at(i, j),
-                         Y = y + 0.5;
+            const double z = static_cast<double>(frame.depth_m(i, j)),
+                         X = frame.x0 + x + 0.5 + frame.shift_at(i, j), Y = frame.y0 + y + 0.5;
             const auto along = [&](int k) {
                 return rays.eye[k] + z * (rays.dir0[k] + X * rays.dir_x[k] + Y * rays.dir_y[k]);
             };

@@ -12,7 +12,7 @@ namespace obscura {
 
 /// A pixel that clips and the point of its lamp that it shows.
 struct LampPixel {
-    int x = 0, y = 0;
+    int x = 0, y = 0;  ///< in the frame
     Vec3d point;
 };
 

@@ -69,8 +69,10 @@ bool same_shadow(const SceneLight& a, const SceneLight& b) {
     return shadow_part(a) == shadow_part(b);
 }
 
-bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render) {
-    return shadow.camera == camera && geometry_part(shadow.render) == geometry_part(render);
+bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render,
+                  const Region& seen) {
+    return shadow.camera == camera && geometry_part(shadow.render) == geometry_part(render) &&
+           shadow.seen == seen;
 }
 
 bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed, const Exec& exec,

@@ -19,6 +19,7 @@ struct LightShadow {
     SceneLight light;  ///< what it was made for; its resolution as found
     Camera camera;     ///< and for this picture, when scope is "frame"
     RenderSettings render;
+    Region seen;                    ///< the picture with its margin
     Bounds casters;                 ///< caster_box() for the light's direction, when it is parallel
     ShadowMap map;                  ///< method "map",
     std::vector<ShadowTree> trees;  ///< "compressed"
@@ -35,7 +36,8 @@ struct LightShadow {
 /// Whether what was made for `a` serves `b`: all that reaches a shadow is equal.
 bool same_shadow(const SceneLight& a, const SceneLight& b);
 /// Whether lookups of one picture are those of the other.
-bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render);
+bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render,
+                  const Region& seen);
 
 /// Builds and serialises the trees of shadow.light (its resolution a number), of which `needed` says what of
 /// each view is wanted (null: everything). Fills shadow.trees and its statistics. `most_bytes`: what trees

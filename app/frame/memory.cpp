@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/frame/glare_margin.h"
 #include "app/frame/glare_memory.h"
 #include "app/frame/lamp_pixels.h"
 #include "app/frame/shadow_memory.h"
@@ -59,6 +60,9 @@ double mib(std::int64_t bytes) {
 
 MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
     const MeshSize mesh = size_of(scene.mesh);
+    // Pictures that glare are rendered wider, and cropped.
+    const int margin = glare_margin(scene);
+    const RenderSettings wide = widened(scene.render, margin);
     const std::span<const SceneLight> lights =
         known.lights.value_or(std::span<const SceneLight>(scene.lights));
     MemoryEstimate e;
@@ -70,7 +74,7 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
     bool maps = false;
     std::int64_t dense = 0;  // whole blocks, which leave nothing over
     for (const SceneLight& light : lights) {
-        const std::int64_t bytes = built_map_bytes(light, scene.render);
+        const std::int64_t bytes = built_map_bytes(light, wide);
         e.shadow_maps += bytes;
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
         maps |= light.shadow.method == ShadowMethod::map || light.shadow.method == ShadowMethod::compressed;
@@ -79,10 +83,11 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
     const std::int64_t making =
-        std::max(shadow_work_bytes(mesh, lights, scene.render), exact_work_bytes(mesh, lights));
-    const std::int64_t picture = picture_bytes(scene.render, known.channels) +
-                                 glare_bytes(scene.optics, scene.render, lamp_count(scene), known.bright_px);
-    e.frame = prepared_bytes(mesh, scene.render) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
+        std::max(shadow_work_bytes(mesh, lights, wide), exact_work_bytes(mesh, lights));
+    const std::int64_t picture =
+        picture_bytes(wide, known.channels) +
+        glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px);
+    e.frame = prepared_bytes(mesh, wide) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
               exact_tiles_bytes(lights) + std::max(making, making / 4 + picture);
     e.frame += allocator_bytes(e.total() - dense);
     return e;
@@ -95,11 +100,13 @@ MemoryEstimate estimate_memory(const SceneDocument& document) {
         e.meshes += mesh_bytes({3 * max_triangles(*mesh), max_triangles(*mesh), 0});
     }
     const RenderSettings render = render_settings_of(document);
+    const OpticsSettings optics = optics_of(document, scene_frames(document).first);
+    // Lamps are counted, and known to be bright, when their meshes are there.
+    const int margin = glare_margin(optics, render, 0);
+    const RenderSettings wide = widened(render, margin);
     for (const SceneTable* light : subtables(document.root, "light"))
-        e.shadow_maps += built_map_bytes(light_of(*light), render);
-    // Lamps are counted when their meshes are there.
-    e.frame = picture_bytes(render, {}) +
-              glare_bytes(optics_of(document, scene_frames(document).first), render, 0, {});
+        e.shadow_maps += built_map_bytes(light_of(*light), wide);
+    e.frame = picture_bytes(wide, {}) + glare_bytes(optics, render, margin, 0, {});
     return e;
 }
 

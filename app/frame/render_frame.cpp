@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/frame/glare_margin.h"
 #include "app/frame/memory.h"
 #include "app/frame/shadows.h"
 #include "app/frame/source_kernels.h"
@@ -55,12 +56,14 @@ TileScene tile_scene(const Scene& scene, int width, int height, int samples) {
     return t;
 }
 
-void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch, TileScene& tiles) {
+void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch, TileScene& tiles,
+                      int margin_px) {
     SetupParams params;
     params.centre_samples_only = tiles.pattern.size() == 1;
+    params.region = {-margin_px, -margin_px, tiles.view.width + 2 * margin_px,
+                     tiles.view.height + 2 * margin_px};
     setup_triangles(mesh, tiles.view, params, exec, scratch.setup);
-    bin_records(scratch.setup, {0, 0, tiles.view.width, tiles.view.height}, frame_tile_side, exec,
-                scratch.bins);
+    bin_records(scratch.setup, params.region, frame_tile_side, exec, scratch.bins);
     tiles.setup = &scratch.setup;
     tiles.bins = &scratch.bins;
 }
@@ -68,7 +71,7 @@ void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch
 TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache) {
     const RenderSettings& render = scene.render;
     TileScene t = tile_scene(scene, render.width, render.height, render.samples);
-    set_up_triangles(scene.mesh, exec, cache.camera_scratch, t);
+    set_up_triangles(scene.mesh, exec, cache.camera_scratch, t, glare_margin(scene));
     t.mesh = &scene.mesh;
     t.surface = surface_mesh(scene.mesh, cache.surface);
     return t;
@@ -78,12 +81,13 @@ void render_picture(const Scene& scene, const TileScene& tiles, const FrameOptio
                     std::optional<KeptPsf>& psf, Frame& frame) {
     const Stopwatch shade;
     const Region whole{0, 0, tiles.view.width, tiles.view.height}, crop = crop_of(whole, options);
-    // Glare comes from anywhere: it takes the whole picture, and what the pixels show where kernels differ.
+    // Glare comes from anywhere: it takes the whole picture with its margin, and what the pixels show where
+    // kernels differ.
     FrameOptions wanted = options;
     wanted.depth |= wants_source_kernels(scene.optics);
     wanted.object |= wants_source_kernels(scene.optics);
     wanted.shift |= tiles.surface.seen != nullptr && wants_source_kernels(scene.optics);
-    size_frame(scene.optics.enabled ? whole : crop, wanted, frame);
+    size_frame(scene.optics.enabled ? tiles.bins->region : crop, wanted, frame);
     // A pattern may take longer than the picture: half of the progress is its own.
     const bool has_glare = scene.optics.enabled && options.progress;
     if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 * share); };

@@ -48,8 +48,8 @@ Frame render_frame(const Scene& scene, const FrameOptions& options = {}, const E
 /// Fills the cache's tables of surface triangles. Adds to `stats`.
 void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats);
 
-/// Sets the camera's triangles up and gathers what the tiles read; borrows from scene and cache. The lights
-/// have no shadows yet.
+/// Sets the camera's triangles up, with the margin that glare needs, and gathers what the tiles read; borrows
+/// from scene and cache. The lights have no shadows yet.
 TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache);
 
 // Its parts, for pictures that are wider than the scene's own or of moved geometry.
@@ -58,8 +58,10 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
 /// more to either side), materials, lights without shadows, sky.
 TileScene tile_scene(const Scene& scene, int width, int height, int samples);
 
-/// Sets `mesh` up for the view of `tiles`, which borrows from scratch.
-void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch, TileScene& tiles);
+/// Sets `mesh` up for the view of `tiles`, which borrows from scratch, and for so many pixels around it:
+/// theirs lie at negative places and past its width and height.
+void set_up_triangles(const Mesh& mesh, const Exec& exec, RasterScratch& scratch, TileScene& tiles,
+                      int margin_px = 0);
 
 /// The steps after them: the pixels of prepared tiles, all or options.crop's, with glare. frame.stats.lights
 /// are told already.

@@ -91,6 +91,8 @@ std::vector<Need> needs_of_tiles(const TileScene& tiles, std::span<const Resolut
     parallel_for(tiles.bins->tiles(), exec, [&](std::size_t i) {
         TileWork work;  // not initialised: every stage writes what the next one reads
         walk_tile(tiles, i, sample, exec.isa, work, [&](int x, int y, int at) {
+            // What is seen only as glare does not decide.
+            if (!tiles.in_picture(x, y)) return;
             for (std::size_t l = 0; l < queries.size(); ++l) {
                 Need& need = needs[i * queries.size() + l];
                 const double texels =

@@ -131,6 +131,7 @@ void plan_shadows(const Work& work) {
     const auto found = auto_resolutions(work.scene, work.pictures, work.exec);
     check_found(work, found);
     std::vector<LightShadow>& shadows = work.cache.shadows;
+    const Region& seen = work.pictures[0].bins->region;
     std::size_t used = 0;
     for (std::size_t i = 0; i < work.scene.lights.size(); ++i) {
         SceneLight light = work.scene.lights[i];
@@ -146,7 +147,7 @@ void plan_shadows(const Work& work) {
         const bool every_picture =
             light.shadow.method != ShadowMethod::compressed || light.shadow.scope == ShadowScope::full;
         const bool kept = !shadow.empty() && same_shadow(shadow.light, light) &&
-                          (every_picture || same_picture(shadow, work.scene.camera, work.scene.render));
+                          (every_picture || same_picture(shadow, work.scene.camera, work.scene.render, seen));
         if (kept) {
             shadow.stats.kept = true;
             shadow.stats.found = found[i];
@@ -165,6 +166,7 @@ void plan_shadows(const Work& work) {
         shadow.light = light;
         shadow.camera = work.scene.camera;
         shadow.render = work.scene.render;
+        shadow.seen = seen;
     }
     shadows.resize(used);
 }

@@ -29,8 +29,8 @@ std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to);
 /// True when the scene asks for such kernels; they need the frame's depth (and object) channels.
 bool wants_source_kernels(const OpticsSettings& optics);
 
-/// The frame: radiance, depth_m and object of the whole picture. `clip`: radiance from which on pixels glare.
-/// `open`: the kernel of the lens in focus, each channel of sum 1.
+/// The frame: radiance, depth_m and object of the whole picture with its margin. `clip`: radiance from which
+/// on pixels glare. `open`: the kernel of the lens in focus, each channel of sum 1.
 SourceKernels source_kernels(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
                              const Image<Vec3f>& open, const Exec& exec);
 

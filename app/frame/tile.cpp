@@ -15,9 +15,10 @@ namespace {
 
 constexpr int tile_samples = frame_tile_side * frame_tile_side;
 
-TileRect tile_of(int column, int row, SamplePosition sample) {
-    return {column * frame_tile_side,
-            row * frame_tile_side,
+TileRect tile_of(const TileScene& scene, int column, int row, SamplePosition sample) {
+    const Region& region = scene.bins->region;
+    return {region.x0 + column * frame_tile_side,
+            region.y0 + row * frame_tile_side,
             frame_tile_side,
             frame_tile_side,
             sample.x,
@@ -119,7 +120,7 @@ void add_block(const ShadeBlock& shade, int first_row, bool first, TileWork& wor
 
 TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosition sample, Isa isa,
                          TileWork& work) {
-    const TileRect tile = tile_of(column, row, sample);
+    const TileRect tile = tile_of(scene, column, row, sample);
     std::fill_n(work.depth, tile_samples, scene.view.max_depth);
     std::fill_n(work.triangle, tile_samples, no_triangle);
     const auto list = scene.bins->list(column, row);
@@ -178,13 +179,13 @@ std::int64_t render_tile(const TileScene& scene, int column, int row, const Fram
                           options.shadow || options.shift;
     const auto samples = static_cast<int>(scene.pattern.size());
     std::int64_t covered = 0;
-    const TileRect whole = tile_of(column, row, {});
+    const TileRect whole = tile_of(scene, column, row, {});
     const TileWindow window = window_of(whole, frame);
     const int begin_row = window.y0 / block_rows * block_rows;
     const bool has_exact = scene.has_exact();
     for (int sample = 0; sample < samples; ++sample) {
         const SamplePosition position = scene.pattern[static_cast<std::size_t>(sample)];
-        const TileRect tile = tile_of(column, row, position);
+        const TileRect tile = tile_of(scene, column, row, position);
         const int k = sample % exact_samples_together;
         if (has_exact) {
             if (k == 0) {

@@ -32,7 +32,8 @@ struct TileLight {
     bool casts_shadows() const { return pcf || exact; }
 };
 
-/// Everything the tiles of one frame have in common. Borrows; read only.
+/// Everything the tiles of one frame have in common. Borrows; read only. The picture is the view; the tiles
+/// are those of bins->region, which reaches past it on all sides by the margin that glare is taken from.
 struct TileScene {
     const TriangleSetup* setup = nullptr;
     const TileBins* bins = nullptr;
@@ -46,6 +47,9 @@ struct TileScene {
     ShadeSky sky;
     std::span<const SamplePosition> pattern;
     bool textured = false;  ///< some material has a texture
+
+    /// Whether the pixel is the picture's, not one of its margin.
+    bool in_picture(int x, int y) const { return x >= 0 && y >= 0 && x < view.width && y < view.height; }
 
     bool has_exact() const {
         return std::any_of(lights.begin(), lights.end(),
@@ -82,7 +86,7 @@ void block_surface(const TileScene& scene, const TileRect& tile, int first_row, 
 void uncover_outside(int width, int rows, SurfaceBlock& surface);
 
 /// Stages 1 and 2 of tile `index` for one sample of every pixel; calls visit(tile, first_row) with the
-/// surfaces of each block of rows in work.surface. Samples outside of the picture count as not covered.
+/// surfaces of each block of rows in work.surface. Samples outside of the margin count as not covered.
 template <class Visit>
 void walk_blocks(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
                  Visit&& visit) {
@@ -97,8 +101,8 @@ void walk_blocks(const TileScene& scene, std::size_t index, SamplePosition sampl
     }
 }
 
-/// The same, sample by sample: calls visit(x, y, at) for each pixel of the picture whose sample is on a
-/// surface: sample `at` of work.surface.
+/// The same, sample by sample: calls visit(x, y, at) for each pixel of the picture and its margin whose
+/// sample is on a surface: sample `at` of work.surface.
 template <class Visit>
 void walk_tile(const TileScene& scene, std::size_t index, SamplePosition sample, Isa isa, TileWork& work,
                Visit&& visit) {

@@ -52,9 +52,10 @@ void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
 }
 
 void render_tiles(const TileScene& scene, const FrameOptions& options, const Exec& exec, Frame& frame) {
-    const int column0 = frame.x0 / frame_tile_side, row0 = frame.y0 / frame_tile_side;
-    const int columns = (frame.x0 + frame.width - 1) / frame_tile_side - column0 + 1;
-    const int rows = (frame.y0 + frame.height - 1) / frame_tile_side - row0 + 1;
+    const int x0 = frame.x0 - scene.bins->region.x0, y0 = frame.y0 - scene.bins->region.y0;
+    const int column0 = x0 / frame_tile_side, row0 = y0 / frame_tile_side;
+    const int columns = (x0 + frame.width - 1) / frame_tile_side - column0 + 1;
+    const int rows = (y0 + frame.height - 1) / frame_tile_side - row0 + 1;
     const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     ProgressMeter meter(options.progress, tiles);
     std::vector<std::int64_t> covered(tiles, 0);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "app/frame/glare_margin.h"
 #include "app/frame/shadows.h"
 #include "app/frame/tiles.h"
 #include "core/error.h"
@@ -67,7 +68,7 @@ void render_one(const Scene& scene, const TileScene& tiles, const EyesWanted& wa
 TileScene middle_tiles(const Scene& scene, int margin_px, const Exec& exec, EyesCache& cache) {
     TileScene t =
         tile_scene(scene, scene.render.width + 2 * margin_px, scene.render.height, scene.render.samples);
-    set_up_triangles(scene.mesh, exec, cache.middle, t);
+    set_up_triangles(scene.mesh, exec, cache.middle, t, glare_margin(scene));
     t.mesh = &scene.mesh;
     t.surface = surface_mesh(scene.mesh, cache.frame.surface);
     return t;
@@ -80,7 +81,7 @@ TileScene eye_tiles(const Scene& scene, const MovedMesh& moved, const SurfaceTab
     CHECK(stage.seen.size() == moved.mesh.positions.size());
     const RenderSettings& render = scene.render;
     TileScene t = tile_scene(scene, render.width, render.height, render.samples);
-    set_up_triangles(eye_mesh(moved, stage.seen, exec), exec, stage.scratch, t);
+    set_up_triangles(eye_mesh(moved, stage.seen, exec), exec, stage.scratch, t, glare_margin(scene));
     t.mesh = &moved.mesh;
     t.surface = surface_mesh(moved.mesh, tables);
     // Without triangles nothing is read, but the sky has its place.
@@ -105,6 +106,7 @@ EyeMap eye_map(const Scene& scene, const TileScene& tiles, const MovedMesh& move
     parallel_for(tiles.bins->tiles(), exec, [&](std::size_t i) {
         TileWork work;  // not initialised: every stage writes what the next one reads
         walk_tile(tiles, i, {128, 128}, exec.isa, work, [&](int x, int y, int at) {
+            if (!tiles.in_picture(x, y)) return;
             const SurfaceBlock& s = work.surface;
             const float z = view_distance(tiles.rays, s.depth[at]);
             map.depth_m(x, y) = z;

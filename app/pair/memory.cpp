@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/frame/glare_margin.h"
 #include "app/frame/tile.h"
 #include "app/pair/pair.h"
 #include "core/mesh_memory.h"
@@ -65,7 +66,7 @@ std::int64_t stereo_bytes(const Scene& scene, const StereoSettings& settings, st
     const std::int64_t vertices = static_cast<std::int64_t>(scene.mesh.positions.size()) +
                                   std::max<std::int64_t>(left - own_triangles, 0);
     return map * (2 * view_bytes + 8) + solved * (2 * view_bytes + system_bytes + solver_bytes) + pictures +
-           moved_bytes(left, vertices, render);
+           moved_bytes(left, vertices, widened(render, glare_margin(scene)));
 }
 
 }  // namespace obscura

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "app/frame/glare_margin.h"
 #include "app/frame/lens.h"
+#include "core/count_text.h"
 #include "core/stopwatch.h"
 #include "optics/aperture_dirt.h"
 
@@ -30,7 +32,7 @@ double mib(std::int64_t bytes) {
 
 }  // namespace
 
-std::string lens_text(const OpticsSettings& o, const RenderSettings& render) {
+std::string lens_text(const OpticsSettings& o, const RenderSettings& render, int margin_px) {
     if (!o.enabled) return "";
     const PsfParams params = psf_params(o, render);
     const double cycles = params.pixel_m / (mean_wavelength_m * params.f_number);
@@ -49,7 +51,12 @@ std::string lens_text(const OpticsSettings& o, const RenderSettings& render) {
         "          its pattern: {} at {:.4g} million frequencies, {} wavelengths, about {} on one thread\n",
         far_field_method_name(plan.method), 1e-6 * static_cast<double>(plan.frequencies), plan.wavelengths,
         duration(plan.cost_ms));
-    const GlareCost cost = most_glare(render.width, render.height, side, glare_params(o, render));
+    const RenderSettings wide = widened(render, margin_px);
+    if (margin_px > 0) {
+        out += fmt::format("          light from {} around the picture: {} x {} are rendered\n",
+                           count_text(margin_px, "pixel"), wide.width, wide.height);
+    }
+    const GlareCost cost = most_glare(wide.width, wide.height, side, glare_params(o, render));
     return out + fmt::format(
                      "          at most {:.4g} ms and {:.4g} MiB to spread it (one thread, every pixel "
                      "bright); nothing when none is\n",

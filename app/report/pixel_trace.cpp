@@ -213,8 +213,9 @@ void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) 
 }
 
 Vec3f PixelStory::sample(int x, int y, SamplePosition position) {
-    const TileRect tile =
-        tile_visibility(tiles_, x / frame_tile_side, y / frame_tile_side, position, exec_.isa, *work_);
+    const Region& region = tiles_.bins->region;
+    const TileRect tile = tile_visibility(tiles_, (x - region.x0) / frame_tile_side,
+                                          (y - region.y0) / frame_tile_side, position, exec_.isa, *work_);
     const int first_row = (y - tile.y0) / block_rows * block_rows;
     const int at = (y - tile.y0 - first_row) * frame_tile_side + (x - tile.x0);
     block_surface(tiles_, tile, first_row, Isa::ref, *work_);

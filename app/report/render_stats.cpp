@@ -43,6 +43,7 @@ void put_glare(JsonWriter& json, const GlareStats& s) {
     json.member("sources", s.sources).member("method", s.fft ? "fft" : "splats").member("reason", s.reason);
     json.member("spread", s.spread)
         .member("lost", s.lost)
+        .member("margin_px", s.margin_px)
         .member("blocked", s.blocked)
         .member("psf_kept", s.kept);
     json.member("kernels", s.kernels).member("own_kernel_sources", s.own_kernel_sources);

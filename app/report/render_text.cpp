@@ -36,8 +36,10 @@ std::string glare_text(const GlareStats& s) {
     std::string out =
         fmt::format("  glare {:.3f} s, of it patterns {:.3f} s: {}\n", s.total_s, s.psf_s, s.reason);
     if (s.sources == 0) return out;
-    return out + fmt::format("  {:.2f} % of their light left its pixel, {:.2f} % the picture; {}\n",
-                             100 * s.spread, 100 * s.lost, count_text(s.wavelengths, "wavelength"));
+    const std::string margin =
+        s.margin_px > 0 ? fmt::format(" with its margin of {}", count_text(s.margin_px, "pixel")) : "";
+    return out + fmt::format("  {:.2f} % of their light left its pixel, {:.2f} % the picture{}; {}\n",
+                             100 * s.spread, 100 * s.lost, margin, count_text(s.wavelengths, "wavelength"));
 }
 
 }  // namespace

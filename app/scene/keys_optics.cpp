@@ -161,6 +161,15 @@ const KeyRows<OpticsSettings>& glare_rows() {
                     integer_key("radius_px",
                                 "How far light spreads; what would fall farther is counted in by scaling.")
                         .in({1, 4096})),
+            count_or_word_row(
+                &OpticsSettings::margin_px, "auto", auto_glare_margin,
+                integer_key(
+                    "margin_px",
+                    "How much wider the picture is rendered on every side before it glares, so that what is "
+                    "just outside of it glares into it. \"auto\": until what lies farther away cannot add a "
+                    "500th of clip any more, an eighth of the picture's shorter side at most.")
+                    .in({0, 4096})
+                    .or_else("auto")),
             key_row(
                 &OpticsSettings::bloom_scale,
                 integer_key(

@@ -12,6 +12,9 @@ namespace obscura {
 /// scene hides of it from the light; `neighbours`: less the pixels around the source that do not glare.
 enum class PupilVisibility { open, exact, neighbours };
 
+/// As many pixels as the lens and what is bright need (app/frame/glare_margin.h).
+constexpr int auto_glare_margin = -1;
+
 /// The camera's lens as far as it diffracts. A pinhole's picture is taken; what this adds is glare.
 struct OpticsSettings {
     bool enabled = false;
@@ -23,11 +26,12 @@ struct OpticsSettings {
     LensDirt dirt;
     // The lens. The camera's angle of view decides the size of the sensor.
     double focal_length_mm = 50, f_number = 8, sensor_height_mm = 24;
-    double clip = 1;          ///< exposed radiance above which a pixel glares
-    LightSpectrum light;      ///< how its wavelengths are spread; colours stay the scene's
-    int wavelengths = 0;      ///< 0: chosen from radius and tolerance
-    double tolerance = 0.01;  ///< of colours
-    int radius_px = 256;      ///< of the kernel
+    double clip = 1;                    ///< exposed radiance above which a pixel glares
+    LightSpectrum light;                ///< how its wavelengths are spread; colours stay the scene's
+    int wavelengths = 0;                ///< 0: chosen from radius and tolerance
+    double tolerance = 0.01;            ///< of colours
+    int radius_px = 256;                ///< of the kernel
+    int margin_px = auto_glare_margin;  ///< that the picture is rendered wider on every side; >= 0
     int bloom_scale = 1;
     PupilVisibility visibility = PupilVisibility::open;
     int visibility_samples = 8;  ///< kernels per lamp, most

@@ -20,7 +20,11 @@ VisiblePoints visible_points(const Scene& scene, const Exec& exec) {
     FrameCache cache;
     FrameStats stats;
     prepare_scene(scene, exec, cache, stats);
-    const TileScene tiles = prepare_tiles(scene, exec, cache);
+    // The picture alone, without the margin that glare would have: its tiles are the blocks' grid.
+    TileScene tiles = tile_scene(scene, points.width, points.height, scene.render.samples);
+    set_up_triangles(scene.mesh, exec, cache.camera_scratch, tiles);
+    tiles.mesh = &scene.mesh;
+    tiles.surface = surface_mesh(scene.mesh, cache.surface);
 
     constexpr int blocks_per_tile = frame_tile_side / block_rows;
     const int columns = points.columns(), block_lines = points.height / block_rows;

@@ -1,6 +1,7 @@
 #include "optics/field/natural_grid.h"
 
 #include <cmath>
+#include <utility>
 
 #include "core/num.h"
 
@@ -106,12 +107,19 @@ AxisFactors edge_factors(const NaturalAxis& axis, int extent) {
     return factors;
 }
 
+ExactRoots exact_roots(int log2_length) {
+    DoubleRoots turns(1 << log2_length);
+    for (double& sine : turns.sine)
+        sine = -sine;
+    return {std::move(turns.cosine), std::move(turns.sine)};
+}
+
 UnitRoots unit_roots(int log2_length) {
-    const DoubleRoots exact(1 << log2_length);
-    UnitRoots roots{std::vector<float>(exact.cosine.size()), std::vector<float>(exact.cosine.size())};
-    for (std::size_t k = 0; k < exact.cosine.size(); ++k) {
-        roots.re[k] = static_cast<float>(exact.cosine[k]);
-        roots.im[k] = static_cast<float>(-exact.sine[k]);
+    const ExactRoots exact = exact_roots(log2_length);
+    UnitRoots roots{std::vector<float>(exact.re.size()), std::vector<float>(exact.re.size())};
+    for (std::size_t k = 0; k < exact.re.size(); ++k) {
+        roots.re[k] = static_cast<float>(exact.re[k]);
+        roots.im[k] = static_cast<float>(exact.im[k]);
     }
     return roots;
 }

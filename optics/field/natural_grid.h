@@ -43,7 +43,13 @@ AxisFactors texel_factors(const NaturalAxis& axis, int extent);
 /// e^(2 pi i u extent / 2) / (2 pi i u); 0 at u = 0, which such sums cannot give.
 AxisFactors edge_factors(const NaturalAxis& axis, int extent);
 
-/// e^(-2 pi i k / length) for k = 0 to length - 1.
+/// e^(-2 pi i k / length) for k = 0 to length - 1, in double.
+struct ExactRoots {
+    std::vector<double> re, im;
+};
+ExactRoots exact_roots(int log2_length);
+
+/// The same, rounded.
 struct UnitRoots {
     std::vector<float> re, im;
 };

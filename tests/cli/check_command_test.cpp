@@ -119,7 +119,7 @@ TEST(CheckCommand, PatternsOutOfReachAreToldWhereTheLensIs) {
     const TemporaryFolder folder;
     const std::string text = refused(folder, "radius_px = 4096\nf_number = 16\n");
     EXPECT_EQ(
-        text.find("limit: " + (folder.path / "a.toml").string() + ":7:2: the lens's pattern needs 2.16e+12 "),
+        text.find("limit: " + (folder.path / "a.toml").string() + ":7:2: the lens's pattern needs 3.46e+12 "),
         0u)
         << text;
 }

@@ -217,12 +217,12 @@ TEST(FrameGlare, TheCameraDecidesThePixelsTrueSize) {
 
 TEST(FrameGlare, CheckTellsWhatItWouldDo) {
     const Scene scene = scene_of(night(std::string(lens) + "focal_length_mm = 50\n"));
-    const std::string text = lens_text(scene.optics, scene.render);
+    const std::string text = lens_text(scene.optics, scene.render, 3);
     for (const char* part :
          {"slit, 50 mm at f/200 (pupil 0.25 mm)", "pixels of 758.3 um", "41 x 41 pixels",
           "cycles of the pupil a pixel", "its pattern: ", "5 wavelengths", "MiB to spread it"})
         EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
-    EXPECT_EQ(lens_text(scene_of(night("")).optics, scene.render), "");
+    EXPECT_EQ(lens_text(scene_of(night("")).optics, scene.render, 0), "");
 }
 
 TEST(FrameGlare, MemoryIsPlannedBeforeTheWork) {
@@ -253,9 +253,9 @@ TEST(FrameGlare, MemoryCountsKernelsAndTheFinestMask) {
     OpticsSettings many = scene_of(night(std::string(lens) + "visibility = \"exact\"\n")).optics;
     const RenderSettings render = scene_of(night(lens)).render;
     many.visibility_samples = 4000;
-    const std::int64_t least = glare_bytes(many, render, 1, {});
+    const std::int64_t least = glare_bytes(many, render, 0, 1, {});
     many.visibility_samples = 4005;
-    EXPECT_EQ(glare_bytes(many, render, 1, {}), least + 5 * kernel);
+    EXPECT_EQ(glare_bytes(many, render, 0, 1, {}), least + 5 * kernel);
     // Nine samples a pixel of all colours, of one kernel at a time.
     const OpticsSettings wide = [] {
         OpticsSettings o = scene_of(night(lens)).optics;
@@ -263,19 +263,19 @@ TEST(FrameGlare, MemoryCountsKernelsAndTheFinestMask) {
         o.radius_px = 4096;
         return o;
     }();
-    EXPECT_GT(glare_bytes(wide, {}, 0, {}), std::int64_t{9} * 8193 * 8193 * 16);
+    EXPECT_GT(glare_bytes(wide, {}, 0, 0, {}), std::int64_t{9} * 8193 * 8193 * 16);
     // Far streaks of a wide round lens are made of a mask as fine as masks get.
     OpticsSettings fine = scene_of(night(lens)).optics;
     fine.shape.kind = ApertureKind::circle;
-    EXPECT_LT(glare_bytes(fine, render, 0, {}), std::int64_t{4096} * 4096 * 4);
+    EXPECT_LT(glare_bytes(fine, render, 0, 0, {}), std::int64_t{4096} * 4096 * 4);
     fine.f_number = 1;
-    EXPECT_GT(glare_bytes(fine, render, 0, {}), std::int64_t{4096} * 4096 * 4);
+    EXPECT_GT(glare_bytes(fine, render, 0, 0, {}), std::int64_t{4096} * 4096 * 4);
 }
 
 TEST(FrameGlare, BrightPixelsAndPatternsAreHeldToTheLimitWhenTheyAreKnown) {
     Scene scene = scene_of(night(std::string(lens) + "visibility = \"exact\"\n"));
     const std::int64_t most = std::int64_t{1} << 30;
-    EXPECT_GT(glare_bytes(scene.optics, scene.render, 1, most), most * bytes_per_lamp_pixel);
+    EXPECT_GT(glare_bytes(scene.optics, scene.render, 0, 1, most), most * bytes_per_lamp_pixel);
     EXPECT_NO_THROW(check_bright_pixels(scene, 1));
     EXPECT_THROW(check_bright_pixels(scene, most), LimitError);
     const std::int64_t fit = kernels_that_fit(scene);

@@ -38,7 +38,7 @@ bool is_kept(const Made& before, const Made& now) {
     LightShadow shadow;
     shadow.camera = before.camera;
     shadow.render = before.render;
-    return same_shadow(before.light, now.light) && same_picture(shadow, now.camera, now.render);
+    return same_shadow(before.light, now.light) && same_picture(shadow, now.camera, now.render, shadow.seen);
 }
 
 /// Changes every key once and sees that the shadow is made again, or kept where the key is `idle`.

@@ -1,0 +1,71 @@
+#include "app/frame/glare_margin.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/frame/lens.h"
+#include "core/error.h"
+#include "optics/aperture_extent.h"
+
+namespace obscura {
+namespace {
+
+constexpr double reference_m = 550e-9;
+/// Of the clip level: what may be missing at the frame's border (and twice that in its corners).
+constexpr double tolerance = 1.0 / 500;
+/// Surfaces are as bright as what shines on them; these many clip levels are taken for granted.
+constexpr double lit_clips = 4;
+/// Of the shorter side: a picture of 16 : 9 has 1.43 times its pixels then.
+constexpr int most_of_side = 8;
+
+/// Pixels beyond which a lens sends all of its light but 1 / pixels of this: light past a line at d is
+/// reach / d, as its pattern falls off (light_past_line()). 0 when that is not known.
+double reach_px(const OpticsSettings& optics, const RenderSettings& render) {
+    if (optics.from_file && optics.mask.pixels.empty()) return 0;  // not read yet
+    try {
+        const Aperture aperture = lens_aperture(optics);
+        const double cycles_per_px = pixel_m(optics, render) / (reference_m * optics.f_number);
+        return light_past_line(aperture.mask.view(), cycles_per_px / aperture.mask.width);
+    } catch (const InputError&) {
+        return 0;  // closed, which is an error of its own where its pattern is asked for
+    }
+}
+
+float largest(Vec3f v) {
+    return std::max({v.x, v.y, v.z});
+}
+
+}  // namespace
+
+int glare_margin(const OpticsSettings& optics, const RenderSettings& render, double brightest_clips) {
+    if (!optics.enabled) return 0;
+    if (optics.margin_px != auto_glare_margin) return optics.margin_px;
+    const int most = std::min(optics.radius_px, std::min(render.width, render.height) / most_of_side);
+    // Points out of focus show discs, which may be as large as kernels are.
+    if (optics.focus_m > 0) return most;
+    // brightest reach (1 / margin - 1 / radius) = tolerance: kernels end at their radius.
+    const double light = reach_px(optics, render) * std::max(brightest_clips, lit_clips);
+    const double margin = 1 / (tolerance / light + 1.0 / optics.radius_px);
+    return margin < most ? static_cast<int>(std::ceil(margin)) : most;
+}
+
+int glare_margin(const Scene& scene) {
+    if (!scene.optics.enabled) return 0;
+    float brightest = 0;
+    for (const Material& material : scene.materials)
+        brightest = std::max(brightest, largest(material.emission));
+    if (scene.sky.visible) {
+        brightest = std::max(
+            {brightest, largest(scene.sky.zenith), largest(scene.sky.horizon), largest(scene.sky.ground)});
+    }
+    const double clip = glare_params(scene.optics, scene.render).clip;
+    return glare_margin(scene.optics, scene.render, static_cast<double>(brightest) / clip);
+}
+
+RenderSettings widened(RenderSettings render, int margin_px) {
+    render.width += 2 * margin_px;
+    render.height += 2 * margin_px;
+    return render;
+}
+
+}  // namespace obscura
