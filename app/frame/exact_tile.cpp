@@ -76,10 +76,12 @@ void ExactTile::restore(int k, TileWork& work) const {
     std::copy_n(triangle_.data() + place(k, 0), tile_samples, work.triangle);
 }
 
-void ExactTile::visibility(std::size_t light, int k, int first_row, float* out) const {
+void ExactTile::darken(std::size_t light, int k, int first_row, float* visibility) const {
     const std::uint32_t* lit = lit_.data() + light * (room / 16) + place(k, first_row) / 16;
-    for (int i = 0; i < block_samples; ++i)
-        out[i] = (lit[i / 16] >> (i % 16) & 1u) != 0 ? 1.0f : 0.0f;
+    for (int i = 0; i < block_samples; ++i) {
+        const bool is_lit = (lit[i / 16] >> (i % 16) & 1u) != 0;
+        visibility[i] = is_lit ? visibility[i] : 0.0f;
+    }
 }
 
 std::unique_ptr<ExactTile> ExactTilePool::take() {

@@ -29,8 +29,9 @@ class ExactTile {
     /// What run() found of stage 1 for its k-th sample, into work.depth and work.triangle.
     void restore(int k, TileWork& work) const;
 
-    /// 0 or 1 for each sample of the block that begins at first_row, of the k-th sample.
-    void visibility(std::size_t light, int k, int first_row, float* out) const;
+    /// Puts 0 for those of a block's samples that the light does not reach: of the k-th sample, from
+    /// first_row on.
+    void darken(std::size_t light, int k, int first_row, float* visibility) const;
 
   private:
     static constexpr std::size_t tile_samples = std::size_t{frame_tile_side} * frame_tile_side;

@@ -155,12 +155,13 @@ void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool 
     if (shadow) std::fill_n(work.shadow_sum, block_samples, 0.0f);
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         const TileLight& light = scene.lights[l];
-        if (light.exact) exact.tile->visibility(l, exact.k, exact.first_row, work.visibility);
+        if (!light.pcf) std::fill_n(work.visibility, block_samples, 1.0f);
         if (light.pcf) {
             const Stopwatch watch;
             OBSCURA_DISPATCH(isa, pcf_block, work.surface, *light.pcf, work.visibility);
             if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
         }
+        if (light.exact) exact.tile->darken(l, exact.k, exact.first_row, work.visibility);
         OBSCURA_DISPATCH(isa, shade_light, work.surface, light.shade,
                          light.casts_shadows() ? work.visibility : nullptr, work.shade);
         if (!shadow || !light.casts_shadows()) continue;

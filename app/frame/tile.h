@@ -25,9 +25,11 @@ class ExactTile;
 /// A light that shines on this frame.
 struct TileLight {
     ShadeLight shade;
-    std::optional<PcfLight> pcf;      ///< shadows looked up in a map or in trees;
-    std::optional<ExactLight> exact;  ///< or of the samples themselves; neither: casts none
-    std::size_t scene_light = 0;      ///< index into Scene::lights
+    // Shadows looked up in a map or in trees, and those of the samples themselves. With both, light must pass
+    // both: a tree of what stands still, the samples' own of what moves. With neither, nothing casts any.
+    std::optional<PcfLight> pcf;
+    std::optional<ExactLight> exact;
+    std::size_t scene_light = 0;  ///< index into Scene::lights
 
     bool casts_shadows() const { return pcf || exact; }
 };

@@ -281,9 +281,15 @@ ExactLight exact_light(const Light& light, std::span<const Casters> casters, con
     const auto side = [](const double(&x)[3], const double(&y)[3]) {
         return std::max(length(Vec3d{x[0], x[1], x[2]}), length(Vec3d{y[0], y[1], y[2]})) / subtexel_one;
     };
-    const double per_metre = rays.perspective ? side(rays.dir_x, rays.dir_y) : 0.0;
-    e.uncertain_m = rays.perspective ? 0.0f : static_cast<float>(side(rays.origin_x, rays.origin_y));
-    e.uncertain_per_m = static_cast<float>(per_metre) + 0x1p-21f;
+    if (rays.perspective) {
+        std::copy_n(rays.eye, 3, e.viewer);
+        e.snapping_per_m = static_cast<float>(side(rays.dir_x, rays.dir_y));
+    } else {
+        for (int k = 0; k < 3; ++k)
+            e.viewer[k] = -rays.dir0[k];
+        e.viewer[3] = 0;
+        e.snapping_m = static_cast<float>(side(rays.origin_x, rays.origin_y));
+    }
     return e;
 }
 

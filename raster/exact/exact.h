@@ -14,12 +14,14 @@
 //      nearer to the light than the triangle's nearest corner;
 //   3. it is not of the sample's own planar face.
 //
-// What is uncertain of a sample: the camera sees triangles whose corners are snapped to 1/256 pixel, so a
-// sample may lie that far beside the surface it shows; its position is a float (2^-21 of |x| + |y| + |z|,
-// as in filters/pcf.h); and its place on the light's grid is a step off. What lies within that of the sample
-// is the same surface for the camera, and so it is here: touching solids, sheets back to back, doubled faces
-// and z-fighting shade nothing of each other, and no shadow is displaced by more than 1/256 pixel along a
-// plane's normal.
+// What is uncertain of a sample: its position is a float (2^-21 of |x| + |y| + |z|, as in filters/pcf.h), and
+// its place on the light's grid is a step off. The camera sees triangles whose corners are snapped to 1/256
+// pixel, so a sample may also lie that far beside the surface it shows: what seems to lie behind a plane that
+// the camera and the light see from one side, but by no more than that, lies in front of it, for the camera
+// sees it there. (Planes between the camera and the light hide nothing from the camera that they hide from
+// the light, so there a sample is taken at its word: no light gets into a closed room along its edges.)
+// Touching solids, sheets back to back, doubled faces and planes that fight for one pixel thus shade nothing
+// of each other, and no shadow is displaced by more than 1/256 pixel along a plane's normal.
 
 #include <cstdint>
 
@@ -30,6 +32,9 @@ namespace obscura {
 /// Texels a side of the views that casters are set up for: with raster/record.h's sub-texel bits a grid of
 /// 2^28 steps.
 constexpr int exact_view_texels = 1 << 20;
+
+/// Of |x| + |y| + |z|, relative to the eye: how far a sample may be off its plane.
+constexpr float exact_position_error = 0x1p-21f;
 
 /// One triangle that casts a shadow (or a piece of one that was clipped): 64 bytes, one cache line.
 struct CasterTriangle {
@@ -72,9 +77,10 @@ struct ExactLight {
     float to_light[3] = {0, 1, 0};  ///< directional: unit
     float position[3] = {0, 0, 0};  ///< otherwise; relative to the eye
     double eye[3] = {0, 0, 0};
-    /// Metres that are uncertain of a sample at p, relative to the eye: constant + per_metre (|x| + |y| +
-    /// |z|).
-    float uncertain_m = 0, uncertain_per_m = 0;
+    /// Where the camera looks from, homogeneous: its eye, or against the way that an orthographic one looks.
+    double viewer[4] = {0, 0, 0, 1};
+    /// 1/256 pixel at p, relative to the eye, metres: snapping_m + snapping_per_m (|x| + |y| + |z|).
+    float snapping_m = 0, snapping_per_m = 0;
 };
 
 /// Points that a camera sees, all of them with one eye: arrays of `count`, a multiple of sixteen. Bit i of a
@@ -93,7 +99,8 @@ struct ExactSamples {
     std::int32_t count = 0;
     std::int32_t *x, *y;   ///< on the grid of the point's view
     float* z;              ///< depth there
-    float* uncertain;      ///< metres
+    float* rounding;       ///< metres that are uncertain of its place,
+    float* uncertain;      ///< and with the camera's snapping
     std::uint32_t* point;  ///< which
     std::uint8_t* view;
 };

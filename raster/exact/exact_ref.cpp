@@ -14,7 +14,7 @@ namespace {
 struct Place {
     Vec3d p;  ///< world space
     std::int32_t x = 0, y = 0;
-    float z = 0, uncertain = 0;
+    float z = 0, rounding = 0, uncertain = 0;
     std::uint32_t face = 0;
 };
 
@@ -38,9 +38,15 @@ double height_above(const CasterTriangle& t, const Place& s) {
     return (t.n[0] * s.p.x + t.n[1] * s.p.y) + (t.n[2] * s.p.z + t.d);
 }
 
-bool darkens(const CasterTriangle& t, float z_low, const Place& s) {
-    return t.face != s.face && z_low <= s.z && covers(t, s) &&
-           !(height_above(t, s) >= -static_cast<double>(s.uncertain));
+/// Whether the camera and the light see the same side of the plane.
+bool is_seen(const CasterTriangle& t, const double (&viewer)[4]) {
+    return (t.n[0] * viewer[0] + t.n[1] * viewer[1]) + (t.n[2] * viewer[2] + t.d * viewer[3]) > 0;
+}
+
+bool darkens(const CasterTriangle& t, float z_low, const ExactLight& light, const Place& s) {
+    if (t.face == s.face || !(z_low <= s.z) || !covers(t, s)) return false;
+    const float uncertain = is_seen(t, light.viewer) ? s.uncertain : s.rounding;
+    return !(height_above(t, s) >= -static_cast<double>(uncertain));
 }
 
 bool may_hold(const CasterBoxes& b, int k, const Place& s) {
@@ -49,17 +55,18 @@ bool may_hold(const CasterBoxes& b, int k, const Place& s) {
 }
 
 /// Whether anything in group i of boxes of a level darkens the sample.
-bool darkened_by(const ExactView& view, int level, std::size_t i, const Place& s, ExactCounts& counts) {
+bool darkened_by(const ExactLight& light, const ExactView& view, int level, std::size_t i, const Place& s,
+                 ExactCounts& counts) {
     const CasterBoxes& boxes = view.boxes[level][i];
     ++counts.groups;
     for (int k = 0; k < 16; ++k) {
         if (!may_hold(boxes, k, s)) continue;
         const std::size_t child = 16 * i + static_cast<std::size_t>(k);
         if (level > 0) {
-            if (darkened_by(view, level - 1, child, s, counts)) return true;
+            if (darkened_by(light, view, level - 1, child, s, counts)) return true;
         } else {
             ++counts.triangles;
-            if (darkens(view.triangles[child], boxes.z_low[k], s)) return true;
+            if (darkens(view.triangles[child], boxes.z_low[k], light, s)) return true;
         }
     }
     return false;
@@ -119,8 +126,8 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
     q.looks = q.looks && place.x >= 0 && place.x <= view.steps && place.y >= 0 && place.y <= view.steps;
     place.z = static_cast<float>(row(view.to_map[2], place.p) * inv);
     const float reach = (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
-    place.uncertain = (light.uncertain_m + light.uncertain_per_m * reach) +
-                      static_cast<float>(view.step_m) * static_cast<float>(w);
+    place.rounding = exact_position_error * reach + static_cast<float>(view.step_m) * static_cast<float>(w);
+    place.uncertain = (light.snapping_m + light.snapping_per_m * reach) + place.rounding;
     place.face = points.face[at];
     return q;
 }
@@ -139,6 +146,7 @@ void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSampl
         samples.x[i] = q.place.x;
         samples.y[i] = q.place.y;
         samples.z[i] = q.place.z;
+        samples.rounding[i] = q.place.rounding;
         samples.uncertain[i] = q.place.uncertain;
         samples.point[i] = static_cast<std::uint32_t>(at);
         samples.view[i] = static_cast<std::uint8_t>(q.view);
@@ -155,10 +163,11 @@ void exact_darken(const ExactPoints& points, const ExactLight& light, const Exac
                           samples.x[i],
                           samples.y[i],
                           samples.z[i],
+                          samples.rounding[i],
                           samples.uncertain[i],
                           points.face[at]};
         ++counts.samples;
-        if (darkened_by(view, view.levels - 1, 0, place, counts)) lit[at / 16] &= ~(1u << (at % 16));
+        if (darkened_by(light, view, view.levels - 1, 0, place, counts)) lit[at / 16] &= ~(1u << (at % 16));
     }
 }
 
@@ -170,6 +179,7 @@ ExactShadow exact_shadow(const ExactPoints& points, const ExactLight& light, int
     shadow.view = q.view;
     shadow.x = q.place.x;
     shadow.y = q.place.y;
+    shadow.rounding_m = q.place.rounding;
     shadow.uncertain_m = q.place.uncertain;
     shadow.on_map = q.looks;
     if (!q.looks) return shadow;
@@ -178,7 +188,7 @@ ExactShadow exact_shadow(const ExactPoints& points, const ExactLight& light, int
     // Every triangle, whatever the boxes say.
     for (std::size_t i = 0; i < static_cast<std::size_t>(view.count); ++i) {
         const CasterTriangle& t = view.triangles[i];
-        if (!darkens(t, view.boxes[0][i / 16].z_low[i % 16], q.place)) continue;
+        if (!darkens(t, view.boxes[0][i / 16].z_low[i % 16], light, q.place)) continue;
         ++shadow.triangles;
         const double behind = -height_above(t, q.place);
         const double distance = behind / dot(Vec3d{t.n[0], t.n[1], t.n[2]}, to_light);

@@ -24,6 +24,7 @@ ExactWork::ExactWork(std::size_t most_points)
     : x_(most_points),
       y_(most_points),
       z_(most_points),
+      rounding_(most_points),
       uncertain_(most_points),
       point_(most_points),
       order_(most_points),
@@ -34,6 +35,7 @@ ExactWork::ExactWork(std::size_t most_points)
     samples_.x = x_.data();
     samples_.y = y_.data();
     samples_.z = z_.data();
+    samples_.rounding = rounding_.data();
     samples_.uncertain = uncertain_.data();
     samples_.point = point_.data();
     samples_.view = view_.data();

@@ -39,6 +39,12 @@ id = "sun"
 type = "directional"
 azimuth_deg = 90
 elevation_deg = 40
+shadow = {resolution = "auto"}
+[[light]]
+id = "moon"
+type = "directional"
+azimuth_deg = 180
+elevation_deg = 40
 [frames]
 range = "1-48"
 [[output]]
@@ -53,7 +59,9 @@ file = "out_####.png"
           "filtered "
           "hierarchically, about 12.0 MiB",
           "light     sun: directional, 1 compressed shadow map of 512 x 512, texels of ",
-          "          auto: a texel spans 0.",
+          "          compressed: 'resolution' is of maps\n", "          auto: a texel spans 0.",
+          "light     moon: directional, shadows of the picture's own samples, exact: 12 triangles to put in "
+          "order, up to 518400 samples to look up\n          exact: 48 frames; a tree pays from 200 on\n",
           "meshes    12 triangles, 24 vertices, 1 object, 1 closed and 0 open components", "\nok\n"}) {
         EXPECT_NE(report.find(line), std::string::npos) << line << "\nis not in\n" << report;
     }

@@ -11,6 +11,7 @@ picture() {
 core
 scenes           core
 raster           core
+raster/exact     raster
 hierarchy        raster
 filters          hierarchy
 optics/field     core
@@ -19,7 +20,7 @@ optics           filters optics/thesis
 stereo           raster
 stereo/thesis    stereo
 app/scene        optics stereo stereo/thesis scenes
-app/frame        app/scene
+app/frame        app/scene raster/exact
 app/pair         app/frame
 app/report       app/pair lessons/drawing
 app/cli          app/report

@@ -36,94 +36,27 @@ struct Bunch {
     alignas(64) std::int32_t x[16], y[16], face[16];
     alignas(64) float z[16];
     alignas(64) double px[16], py[16], pz[16];  ///< world space
-    alignas(64) double lowest[16];              ///< height above a plane below which it is behind it
+    /// Height above a plane below which a sample is behind it: [1] where the camera sees the light's side of
+    /// that.
+    alignas(64) double lowest[2][16];
     Extent extent;
     float z_low;
-    /// Middle and half of what the samples span, metres, relative to the eye; and the least that is uncertain
-    /// of one.
-    float middle[3], half[3], uncertain;
-    std::uint32_t open;  ///< lanes that nothing has darkened yet
-    bool one_face;       ///< all lanes have the first one's
+    float middle[3], half[3];  ///< of what the samples span, metres, relative to the eye
+    float rounding, snapping;  ///< the least that is uncertain of one, and what the camera adds at least
+    std::uint32_t open;        ///< lanes that nothing has darkened yet
+    bool one_face;             ///< all lanes have the first one's
 };
-
-OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
-    const F32 ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero = splat(0.0f);
-    const auto face = [&](const F32& along, std::int32_t positive) {
-        return select(less_equal(zero, along), splat(positive), splat(positive + 1));
-    };
-    const Mask x_largest = less_equal(ay, ax) & less_equal(az, ax);
-    const Mask y_largest = less_equal(az, ay);
-    return select(x_largest, face(d.x, 0), select(y_largest, face(d.y, 2), face(d.z, 4)));
-}
-
-OBSCURA_INLINE F64 row(const double (&m)[4], const F64& x, const F64& y, const F64& z) {
-    return (splat(m[0]) * x + splat(m[1]) * y) + (splat(m[2]) * z + splat(m[3]));
-}
-
-/// Sixteen points on the grid of one view.
-struct Located {
-    I32 x, y;
-    F32 z, uncertain;
-    std::uint32_t looks;
-};
-
-OBSCURA_INLINE Located located(const ExactLight& light, const ExactView& view, const Vec3x16& p) {
-    Located to;
-    const F64 x = splat(light.eye[0]) + to_f64(p.x), y = splat(light.eye[1]) + to_f64(p.y),
-              z = splat(light.eye[2]) + to_f64(p.z);
-    F64 w = splat(1.0);
-    to.looks = 0xffffu;
-    if (view.perspective) {
-        w = row(view.to_map[3], x, y, z);
-        to.looks &= bits(greater_equal(w, splat(view.near_w)));
-    }
-    const F64 inv = splat(1.0) / w;
-    const auto on_grid = [&](int k) {
-        const F64 steps = (row(view.to_map[k], x, y, z) * inv) * splat(256.0);
-        return round_to_i32(min(max(steps, splat(-1.0)), splat(view.steps + 1.0)));
-    };
-    to.x = on_grid(0);
-    to.y = on_grid(1);
-    const I32 zero = splat(std::int32_t{0}), last = splat(view.steps);
-    to.looks &= bits(less_equal(zero, to.x) & less_equal(to.x, last) & less_equal(zero, to.y) &
-                     less_equal(to.y, last));
-    to.z = to_f32(row(view.to_map[2], x, y, z) * inv);
-    const F32 reach = (abs(p.x) + abs(p.y)) + abs(p.z);
-    to.uncertain = (splat(light.uncertain_m) + splat(light.uncertain_per_m) * reach) +
-                   splat(static_cast<float>(view.step_m)) * to_f32(w);
-    return to;
-}
-
-OBSCURA_INLINE void append(const Located& from, std::uint32_t lanes_of, std::int32_t first_point,
-                           std::int32_t view, ExactSamples& to) {
-    alignas(64) std::int32_t x[16], y[16];
-    alignas(64) float z[16], uncertain[16];
-    store(x, from.x);
-    store(y, from.y);
-    store(z, from.z);
-    store(uncertain, from.uncertain);
-    std::int32_t n = to.count;
-    for (; lanes_of != 0; lanes_of &= lanes_of - 1, ++n) {
-        const int k = __builtin_ctz(lanes_of);
-        to.x[n] = x[k];
-        to.y[n] = y[k];
-        to.z[n] = z[k];
-        to.uncertain[n] = uncertain[k];
-        to.point[n] = static_cast<std::uint32_t>(first_point + k);
-        to.view[n] = static_cast<std::uint8_t>(view);
-    }
-    to.count = n;
-}
 
 /// `n` samples of one view, from order[0] on.
 OBSCURA_INLINE void gather_bunch(const ExactPoints& points, const ExactLight& light,
                                  const ExactSamples& samples, const std::uint32_t* order, int n, Bunch& to) {
-    alignas(64) float px[16], py[16], pz[16], uncertain[16];
+    alignas(64) float px[16], py[16], pz[16], rounding[16], uncertain[16];
     for (int k = 0; k < 16; ++k) {
         const std::uint32_t i = order[k < n ? k : 0], at = samples.point[i];
         to.x[k] = samples.x[i];
         to.y[k] = samples.y[i];
         to.z[k] = samples.z[i];
+        rounding[k] = samples.rounding[i];
         uncertain[k] = samples.uncertain[i];
         to.face[k] = static_cast<std::int32_t>(points.face[at]);
         px[k] = points.px[at];
@@ -133,12 +66,14 @@ OBSCURA_INLINE void gather_bunch(const ExactPoints& points, const ExactLight& li
     store(to.px, splat(light.eye[0]) + to_f64(load(px)));
     store(to.py, splat(light.eye[1]) + to_f64(load(py)));
     store(to.pz, splat(light.eye[2]) + to_f64(load(pz)));
-    store(to.lowest, splat(0.0) - to_f64(load(uncertain)));
+    store(to.lowest[0], splat(0.0) - to_f64(load(rounding)));
+    store(to.lowest[1], splat(0.0) - to_f64(load(uncertain)));
     const I32 x = load(to.x), y = load(to.y), face = load(to.face);
     const F32 z = load(to.z);
     to.extent = {lowest(x), highest(x), lowest(y), highest(y), highest(z)};
     to.z_low = lowest(z);
-    to.uncertain = lowest(load(uncertain));
+    to.rounding = lowest(load(rounding));
+    to.snapping = lowest(load(uncertain)) - to.rounding;
     const float* const axis[3] = {px, py, pz};
     for (int k = 0; k < 3; ++k) {
         const F32 p = load(axis[k]);
@@ -189,6 +124,11 @@ OBSCURA_INLINE void walk(const ExactView& view, const Extent& e, std::int64_t& g
     }
 }
 
+/// Whether the camera and the light see the same side of the plane.
+OBSCURA_INLINE bool is_seen(const CasterTriangle& t, const double (&viewer)[4]) {
+    return (t.n[0] * viewer[0] + t.n[1] * viewer[1]) + (t.n[2] * viewer[2] + t.d * viewer[3]) > 0;
+}
+
 /// An edge that some sample of a bunch may be outside of: value at the bunch's lowest place, and steps.
 struct Crossing {
     std::int64_t e, A, B;
@@ -209,7 +149,8 @@ std::uint32_t inside_of_long(const Crossing* edge, int edges, const Bunch& s) {
 }
 
 /// Open lanes of the bunch that the triangle darkens.
-OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, const Bunch& s) {
+OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, const double (&viewer)[4],
+                                      const Bunch& s) {
     if (s.one_face && static_cast<std::int32_t>(t.face) == s.face[0]) return 0;
     // Edges over the bunch's extent: outside of one, done; inside of all of one, forgotten.
     Crossing edge[3];
@@ -233,7 +174,7 @@ OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, cons
 
     const F64 height_above =
         (splat(t.n[0]) * load(s.px) + splat(t.n[1]) * load(s.py)) + (splat(t.n[2]) * load(s.pz) + splat(t.d));
-    std::uint32_t dark = s.open & ~bits(greater_equal(height_above, load(s.lowest)));
+    std::uint32_t dark = s.open & ~bits(greater_equal(height_above, load(s.lowest[is_seen(t, viewer)])));
     if (dark == 0) return 0;
     if (!s.one_face) dark &= ~bits(equal(load(s.face), splat(static_cast<std::int32_t>(t.face))));
     if (!(z_low <= s.z_low)) dark &= bits(less_equal(splat(z_low), load(s.z)));
@@ -256,10 +197,11 @@ struct Nearby {
     CasterBoxes boxes[room / 16];
     alignas(64) std::int32_t x[3][room], y[3][room];
     alignas(64) float n[3][room], d[room];  ///< the plane, relative to the eye
+    alignas(64) float seen[room];           ///< 1: the camera sees its side of the light; else 0
     std::uint32_t triangle[room];
     int count = 0;
 
-    OBSCURA_INLINE void add(const CasterTriangle& t, const double (&eye)[3], const CasterBoxes& from,
+    OBSCURA_INLINE void add(const CasterTriangle& t, const ExactLight& light, const CasterBoxes& from,
                             std::uint32_t index, int k) {
         CasterBoxes& to = boxes[count / 16];
         const int i = count % 16;
@@ -273,7 +215,9 @@ struct Nearby {
             y[c][count] = t.y[c];
             n[c][count] = static_cast<float>(t.n[c]);
         }
-        d[count] = static_cast<float>((t.n[0] * eye[0] + t.n[1] * eye[1]) + (t.n[2] * eye[2] + t.d));
+        d[count] = static_cast<float>((t.n[0] * light.eye[0] + t.n[1] * light.eye[1]) +
+                                      (t.n[2] * light.eye[2] + t.d));
+        seen[count] = is_seen(t, light.viewer) ? 1.0f : 0.0f;
         triangle[count++] = index;
     }
     /// Places after the last hold nothing.
@@ -298,7 +242,8 @@ struct Nearby {
             (abs(n0) * splat(s.half[0]) + abs(n1) * splat(s.half[1])) + abs(n2) * splat(s.half[2]);
         const float size = (abs_of(s.middle[0]) + abs_of(s.middle[1])) + abs_of(s.middle[2]);
         const F32 rounding = splat(0x1p-21f) * (splat(size) + abs(offset));
-        may &= bits(less(height - reach - rounding, splat(-0.99f * s.uncertain)));
+        may &= bits(less(height - reach - rounding,
+                         splat(-0.99f * s.rounding) - splat(0.99f * s.snapping) * load(seen + first)));
         if (may == 0) return 0;
         // All of the bunch is outside of an edge.
         const std::int32_t half_x = s.extent.x_high / 2 - s.extent.x_low / 2 + 1,
@@ -324,7 +269,7 @@ OBSCURA_INLINE Extent united(const Extent& a, const Extent& b) {
 }
 
 /// Darkens the open lanes of `n` bunches, which are of one view.
-void darken(const ExactView& view, const double (&eye)[3], Bunch* bunch, int n, ExactCounts& counts) {
+void darken(const ExactLight& light, const ExactView& view, Bunch* bunch, int n, ExactCounts& counts) {
     Extent all = bunch[0].extent;
     for (int b = 1; b < n; ++b)
         all = united(all, bunch[b].extent);
@@ -334,7 +279,7 @@ void darken(const ExactView& view, const double (&eye)[3], Bunch* bunch, int n, 
         complete = nearby.count < Nearby::room;
         if (complete) {
             const std::uint32_t index = first + static_cast<std::uint32_t>(k);
-            nearby.add(view.triangles[index], eye, boxes, index, k);
+            nearby.add(view.triangles[index], light, boxes, index, k);
         }
         return complete;
     });
@@ -343,7 +288,7 @@ void darken(const ExactView& view, const double (&eye)[3], Bunch* bunch, int n, 
         Bunch& s = bunch[b];
         const auto test = [&](std::uint32_t triangle, float z_low) {
             ++counts.triangles;
-            s.open &= ~darkened(view.triangles[triangle], z_low, s);
+            s.open &= ~darkened(view.triangles[triangle], z_low, light.viewer, s);
             return s.open != 0;
         };
         if (!complete) {
@@ -364,29 +309,6 @@ void darken(const ExactView& view, const double (&eye)[3], Bunch* bunch, int n, 
 
 }  // namespace
 
-void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,
-                  std::uint32_t* lit) noexcept {
-    samples.count = 0;
-    for (std::int32_t at = 0; at < points.count; at += lanes) {
-        const std::uint32_t covered = points.covered[at / 16];
-        lit[at / 16] = 0;
-        if (covered == 0) continue;
-        const Vec3x16 p = load3(points.px + at, points.py + at, points.pz + at);
-        const Vec3x16 g = load3(points.gx + at, points.gy + at, points.gz + at);
-        const Vec3x16 l = light.directional ? splat3(light.to_light) : splat3(light.position) - p;
-        const std::uint32_t asking = covered & (bits(less(splat(0.0f), dot(g, l))) | points.thin[at / 16]);
-        lit[at / 16] = asking;
-        if (asking == 0) continue;
-        const I32 face = light.views == 6 ? cube_faces(negated(mask_of(0xffffu), l)) : splat(std::int32_t{0});
-        for (std::int32_t v = 0; v < light.views; ++v) {
-            const std::uint32_t of_view = asking & bits(equal(face, splat(v)));
-            if (of_view == 0 || light.view[v].levels == 0) continue;
-            const Located place = located(light, light.view[v], p);
-            append(place, of_view & place.looks, at, v, samples);
-        }
-    }
-}
-
 void exact_darken(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples,
                   const std::uint32_t* order, std::uint32_t* lit, ExactCounts& counts) noexcept {
     Bunch bunch[bunches];
@@ -403,7 +325,7 @@ void exact_darken(const ExactPoints& points, const ExactLight& light, const Exac
             gather_bunch(points, light, samples, order + next, members, bunch[n]);
             next += members;
         }
-        darken(light.view[view], light.eye, bunch, n, counts);
+        darken(light, light.view[view], bunch, n, counts);
         for (std::int32_t i = first; i < next; ++i) {
             const std::int32_t at = i - first;
             if ((bunch[at / lanes].open >> (at % lanes) & 1u) != 0) continue;
