@@ -9,12 +9,12 @@ namespace obscura {
 
 ExactTile::ExactTile(std::size_t lights)
     : depth_(room),
-      px_(room),
-      py_(room),
-      pz_(room),
       gx_(room),
       gy_(room),
       gz_(room),
+      px_(room),
+      py_(room),
+      pz_(room),
       triangle_(room),
       face_(room),
       covered_(room / 16),
@@ -22,20 +22,28 @@ ExactTile::ExactTile(std::size_t lights)
       lit_(lights * room / 16),
       work_(room) {}
 
+/// Positions are floats; on the plane of its face a point is where it is seen, in doubles.
 void ExactTile::keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block) {
     const std::size_t to = place(k, first_row);
-    std::copy_n(block.px, block_samples, px_.data() + to);
-    std::copy_n(block.py, block_samples, py_.data() + to);
-    std::copy_n(block.pz, block_samples, pz_.data() + to);
     std::copy_n(block.gx, block_samples, gx_.data() + to);
     std::copy_n(block.gy, block_samples, gy_.data() + to);
     std::copy_n(block.gz, block_samples, gz_.data() + to);
     std::copy_n(block.covered, block_groups, covered_.data() + to / 16);
     std::copy_n(block.thin, block_groups, thin_.data() + to / 16);
     const std::uint32_t* faces = scene.mesh->face.data();
+    const Vec3d eye{scene.rays.eye[0], scene.rays.eye[1], scene.rays.eye[2]};
     for (std::size_t i = 0; i < block_samples; ++i) {
         const std::uint32_t triangle = block.triangle[i];
-        face_[to + i] = triangle == no_triangle ? no_triangle : faces[triangle];
+        face_[to + i] = no_triangle;
+        Vec3d p = eye + to_double(Vec3f{block.px[i], block.py[i], block.pz[i]});
+        if (triangle != no_triangle) {
+            face_[to + i] = faces[triangle];
+            const Plane& plane = scene.mesh->faces[faces[triangle]];
+            p = p - plane.n * (dot(plane.n, p) + plane.d);
+        }
+        px_[to + i] = p.x;
+        py_[to + i] = p.y;
+        pz_[to + i] = p.z;
     }
 }
 
@@ -52,6 +60,16 @@ void ExactTile::run(const TileScene& scene, int column, int row, int first, int 
             keep_block(scene, k, block, work.surface);
         }
     }
+    const ExactPoints all = points(count);
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        if (!scene.lights[l].exact) continue;
+        const Stopwatch watch;
+        work_.shadows(all, *scene.lights[l].exact, isa, lit_.data() + l * (room / 16), work.exact_counts);
+        if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
+    }
+}
+
+ExactPoints ExactTile::points(int count) const {
     ExactPoints points{};
     points.count = static_cast<std::int32_t>(place(count, 0));
     points.px = px_.data();
@@ -63,12 +81,7 @@ void ExactTile::run(const TileScene& scene, int column, int row, int first, int 
     points.face = face_.data();
     points.covered = covered_.data();
     points.thin = thin_.data();
-    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
-        if (!scene.lights[l].exact) continue;
-        const Stopwatch watch;
-        work_.shadows(points, *scene.lights[l].exact, isa, lit_.data() + l * (room / 16), work.exact_counts);
-        if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
-    }
+    return points;
 }
 
 void ExactTile::restore(int k, TileWork& work) const {
@@ -103,8 +116,9 @@ void ExactTilePool::give_back(std::unique_ptr<ExactTile> tile) {
 
 std::int64_t exact_tile_bytes(std::size_t lights) {
     constexpr std::int64_t samples = std::int64_t{frame_tile_side} * frame_tile_side * exact_samples_together;
-    // Nine words and two masks a sample, a bit for each light; 45 bytes to look them up.
-    return samples * (9 * 4 + 45) + samples / 8 * static_cast<std::int64_t>(4 + 2 * lights);
+    // Depth, normal, triangle, face and position of a sample, two masks, a bit for each light; 37 bytes to
+    // look it up.
+    return samples * (6 * 4 + 3 * 8 + 37) + samples / 8 * static_cast<std::int64_t>(4 + 2 * lights);
 }
 
 }  // namespace obscura

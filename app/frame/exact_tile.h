@@ -29,6 +29,11 @@ class ExactTile {
     /// What run() found of stage 1 for its k-th sample, into work.depth and work.triangle.
     void restore(int k, TileWork& work) const;
 
+    // Parts of run(): keeps a block's surfaces as points of the k-th sample, from first_row on; and the
+    // points of the first `count` samples.
+    void keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block);
+    ExactPoints points(int count) const;
+
     /// Puts 0 for those of a block's samples that the light does not reach: of the k-th sample, from
     /// first_row on.
     void darken(std::size_t light, int k, int first_row, float* visibility) const;
@@ -40,9 +45,9 @@ class ExactTile {
         return static_cast<std::size_t>(k) * tile_samples +
                static_cast<std::size_t>(first_row) * frame_tile_side;
     }
-    void keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block);
 
-    Buffer<float> depth_, px_, py_, pz_, gx_, gy_, gz_;
+    Buffer<float> depth_, gx_, gy_, gz_;
+    Buffer<double> px_, py_, pz_;
     Buffer<std::uint32_t> triangle_, face_, covered_, thin_, lit_;
     ExactWork work_;
 };

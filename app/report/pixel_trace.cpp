@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/frame/exact_tile.h"
 #include "app/frame/shadows.h"
 #include "app/scene/light_kinds.h"
 #include "core/count_text.h"
@@ -153,15 +154,11 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
     say("      visibility {:.6g}", look.visibility);
 }
 
-/// The block's points, in the form that exact shadows ask for.
+/// Finds the sample's own exact shadow, with the triangle that casts it.
 void PixelStory::tell_exact(const TileLight& light, int at) {
-    const SurfaceBlock& s = work_->surface;
-    std::vector<std::uint32_t> face(block_samples, 0);
-    for (int i = 0; i < block_samples; ++i) {
-        if (is(s.covered, i)) face[static_cast<std::size_t>(i)] = scene_.mesh.face[s.triangle[i]];
-    }
-    const ExactPoints points{block_samples, s.px, s.py,        s.pz,      s.gx,
-                             s.gy,          s.gz, face.data(), s.covered, s.thin};
+    ExactTile tile(1);
+    tile.keep_block(tiles_, 0, 0, work_->surface);
+    const ExactPoints points = tile.points(1);
     const ref::ExactShadow shadow = ref::exact_shadow(points, *light.exact, at);
     std::fill_n(work_->visibility, block_samples, 0.0f);
     work_->visibility[at] = shadow.lit ? 1.0f : 0.0f;
@@ -175,7 +172,7 @@ void PixelStory::tell_exact(const TileLight& light, int at) {
         return;
     }
     say("      exact: view {} of {}, step ({}, {}) of {} a side, place uncertain by {:.3g} m", shadow.view,
-        light.exact->views, shadow.x, shadow.y, light.exact->view[shadow.view].steps, shadow.uncertain_m);
+        light.exact->views, shadow.x, shadow.y, light.exact->view[shadow.view].steps, shadow.rounding_m);
     if (shadow.lit) {
         say("        nothing stands between, visibility 1");
         return;

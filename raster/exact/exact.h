@@ -14,14 +14,16 @@
 //      nearer to the light than the triangle's nearest corner;
 //   3. it is not of the sample's own planar face.
 //
-// What is uncertain of a sample: its position is a float (2^-21 of |x| + |y| + |z|, as in filters/pcf.h), and
-// its place on the light's grid is a step off. The camera sees triangles whose corners are snapped to 1/256
-// pixel, so a sample may also lie that far beside the surface it shows: what seems to lie behind a plane that
-// the camera and the light see from one side, but by no more than that, lies in front of it, for the camera
-// sees it there. (Planes between the camera and the light hide nothing from the camera that they hide from
-// the light, so there a sample is taken at its word: no light gets into a closed room along its edges.)
-// Touching solids, sheets back to back, doubled faces and planes that fight for one pixel thus shade nothing
-// of each other, and no shadow is displaced by more than 1/256 pixel along a plane's normal.
+// What is uncertain of a sample. Its position is put back onto its face's plane in doubles, and still came
+// from a depth that is a float: what lies within 2^-22 of the distance of it is one surface for the camera,
+// and so it is here; its place on the light's grid is a step off. Touching solids, sheets back to back,
+// doubled faces and planes that fight for one pixel shade nothing of each other.
+//
+// The camera sees triangles whose corners are snapped to 1/256 pixel, so a sample may lie that far beside the
+// triangle it shows, on its plane, and there behind another that meets it. What seems to lie behind a plane
+// of which camera and light see the same side, but no farther than 1/256 pixel along the sample's own plane
+// takes it, lies in front of it, for the camera sees it there. (Of planes between the camera and the light
+// nothing of the kind is known: no light gets into a closed room along its edges.)
 
 #include <cstdint>
 
@@ -33,8 +35,11 @@ namespace obscura {
 /// 2^28 steps.
 constexpr int exact_view_texels = 1 << 20;
 
-/// Of |x| + |y| + |z|, relative to the eye: how far a sample may be off its plane.
-constexpr float exact_position_error = 0x1p-21f;
+/// Of |x| + |y| + |z|, relative to the eye: how far apart surfaces are that one depth of the camera may mean.
+constexpr float exact_depth_error = 0x1p-22f;
+
+/// Planes that the camera sees at a smaller cosine are taken as if at this.
+constexpr float exact_least_cosine = 1.0f / 16.0f;
 
 /// One triangle that casts a shadow (or a piece of one that was clipped): 64 bytes, one cache line.
 struct CasterTriangle {
@@ -87,7 +92,7 @@ struct ExactLight {
 /// mask word is point 16 g + i.
 struct ExactPoints {
     std::int32_t count = 0;
-    const float *px, *py, *pz;     ///< metres, relative to the eye
+    const double *px, *py, *pz;    ///< world space, metres, on the plane of their face
     const float *gx, *gy, *gz;     ///< geometric normal, turned to the viewer
     const std::uint32_t* face;     ///< planar face of each (Mesh::face)
     const std::uint32_t* covered;  ///< points that there are
@@ -99,11 +104,32 @@ struct ExactSamples {
     std::int32_t count = 0;
     std::int32_t *x, *y;   ///< on the grid of the point's view
     float* z;              ///< depth there
-    float* rounding;       ///< metres that are uncertain of its place,
-    float* uncertain;      ///< and with the camera's snapping
+    float* rounding;       ///< metres that are uncertain of its place
     std::uint32_t* point;  ///< which
     std::uint8_t* view;
 };
+
+/// How far behind the plane of a triangle with unit normal n a point may seem to lie that 1/256 pixel beside
+/// its place lies before it: p relative to the eye, g the unit normal of its own plane, turned to the viewer.
+[[gnu::always_inline]] inline float exact_snap(const ExactLight& light, const float (&p)[3],
+                                               const float (&g)[3], const double (&n)[3]) {
+    const float reach = (__builtin_fabsf(p[0]) + __builtin_fabsf(p[1])) + __builtin_fabsf(p[2]);
+    // Towards the viewer.
+    float v[3];
+    for (int k = 0; k < 3; ++k)
+        v[k] = light.viewer[3] != 0 ? -p[k] : static_cast<float>(light.viewer[k]);
+    const float facing = (g[0] * v[0] + g[1] * v[1]) + g[2] * v[2];
+    const float cosine = facing / __builtin_sqrtf((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
+    const float along = (light.snapping_m + light.snapping_per_m * reach) /
+                        (cosine > exact_least_cosine ? cosine : exact_least_cosine);
+    // Times the sine between the planes.
+    float c[3];
+    for (int k = 0; k < 3; ++k) {
+        const int i = k == 2 ? 0 : k + 1, j = 3 - k - i;
+        c[k] = g[i] * static_cast<float>(n[j]) - g[j] * static_cast<float>(n[i]);
+    }
+    return along * __builtin_sqrtf((c[0] * c[0] + c[1] * c[1]) + c[2] * c[2]);
+}
 
 /// Work done, for tests and charts: nothing of it depends on threads.
 struct ExactCounts {

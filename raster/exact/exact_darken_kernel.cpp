@@ -36,52 +36,52 @@ struct Bunch {
     alignas(64) std::int32_t x[16], y[16], face[16];
     alignas(64) float z[16];
     alignas(64) double px[16], py[16], pz[16];  ///< world space
-    /// Height above a plane below which a sample is behind it: [1] where the camera sees the light's side of
-    /// that.
-    alignas(64) double lowest[2][16];
+    alignas(64) double lowest[16];              ///< height above a plane below which it is behind it
     Extent extent;
     float z_low;
     float middle[3], half[3];  ///< of what the samples span, metres, relative to the eye
-    float rounding, snapping;  ///< the least that is uncertain of one, and what the camera adds at least
-    std::uint32_t open;        ///< lanes that nothing has darkened yet
-    bool one_face;             ///< all lanes have the first one's
+    float rounding;            ///< the least that is uncertain of one
+    double near;               ///< height above a plane below which no snapping takes any of them
+    std::int32_t point[16];
+    std::uint32_t open;  ///< lanes that nothing has darkened yet
+    bool one_face;       ///< all lanes have the first one's
 };
 
 /// `n` samples of one view, from order[0] on.
 OBSCURA_INLINE void gather_bunch(const ExactPoints& points, const ExactLight& light,
                                  const ExactSamples& samples, const std::uint32_t* order, int n, Bunch& to) {
-    alignas(64) float px[16], py[16], pz[16], rounding[16], uncertain[16];
+    alignas(64) float rounding[16];
     for (int k = 0; k < 16; ++k) {
         const std::uint32_t i = order[k < n ? k : 0], at = samples.point[i];
         to.x[k] = samples.x[i];
         to.y[k] = samples.y[i];
         to.z[k] = samples.z[i];
         rounding[k] = samples.rounding[i];
-        uncertain[k] = samples.uncertain[i];
+        to.point[k] = static_cast<std::int32_t>(at);
         to.face[k] = static_cast<std::int32_t>(points.face[at]);
-        px[k] = points.px[at];
-        py[k] = points.py[at];
-        pz[k] = points.pz[at];
+        to.px[k] = points.px[at];
+        to.py[k] = points.py[at];
+        to.pz[k] = points.pz[at];
     }
-    store(to.px, splat(light.eye[0]) + to_f64(load(px)));
-    store(to.py, splat(light.eye[1]) + to_f64(load(py)));
-    store(to.pz, splat(light.eye[2]) + to_f64(load(pz)));
-    store(to.lowest[0], splat(0.0) - to_f64(load(rounding)));
-    store(to.lowest[1], splat(0.0) - to_f64(load(uncertain)));
+    store(to.lowest, splat(0.0) - to_f64(load(rounding)));
     const I32 x = load(to.x), y = load(to.y), face = load(to.face);
     const F32 z = load(to.z);
     to.extent = {lowest(x), highest(x), lowest(y), highest(y), highest(z)};
     to.z_low = lowest(z);
     to.rounding = lowest(load(rounding));
-    to.snapping = lowest(load(uncertain)) - to.rounding;
-    const float* const axis[3] = {px, py, pz};
+    float reach = 0;
+    const double* const axis[3] = {to.px, to.py, to.pz};
     for (int k = 0; k < 3; ++k) {
-        const F32 p = load(axis[k]);
+        const F32 p = to_f32(load(axis[k]) - splat(light.eye[k]));
         const float low = lowest(p), high = highest(p);
         to.middle[k] = 0.5f * (low + high);
         // Half, and as much again as its rounding may be.
         to.half[k] = 0.5f * (high - low) + 0x1p-22f * most(high, -low);
+        reach += most(high, -low);
     }
+    to.near =
+        -1.001 * static_cast<double>(highest(load(rounding)) +
+                                     (light.snapping_m + light.snapping_per_m * reach) / exact_least_cosine);
     to.open = (n >= 16 ? 0xffffu : (1u << n) - 1u);
     to.one_face = all(equal(face, splat(to.face[0])));
 }
@@ -148,10 +148,8 @@ std::uint32_t inside_of_long(const Crossing* edge, int edges, const Bunch& s) {
     return inside;
 }
 
-/// Open lanes of the bunch that the triangle darkens.
-OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, const double (&viewer)[4],
-                                      const Bunch& s) {
-    if (s.one_face && static_cast<std::int32_t>(t.face) == s.face[0]) return 0;
+/// Lanes of `lanes_of` whose samples the triangle covers; 0 where all of the bunch is outside of an edge.
+OBSCURA_INLINE std::uint32_t covered(const CasterTriangle& t, const Bunch& s, std::uint32_t lanes_of) {
     // Edges over the bunch's extent: outside of one, done; inside of all of one, forgotten.
     Crossing edge[3];
     int edges = 0;
@@ -171,23 +169,52 @@ OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, cons
         constexpr std::int64_t exact = std::int64_t{1} << 51;
         fits = fits && -exact < across && across < exact && -exact < down && down < exact;
     }
-
-    const F64 height_above =
-        (splat(t.n[0]) * load(s.px) + splat(t.n[1]) * load(s.py)) + (splat(t.n[2]) * load(s.pz) + splat(t.d));
-    std::uint32_t dark = s.open & ~bits(greater_equal(height_above, load(s.lowest[is_seen(t, viewer)])));
-    if (dark == 0) return 0;
-    if (!s.one_face) dark &= ~bits(equal(load(s.face), splat(static_cast<std::int32_t>(t.face))));
-    if (!(z_low <= s.z_low)) dark &= bits(less_equal(splat(z_low), load(s.z)));
-    if (dark == 0 || edges == 0) return dark;
-    if (!fits) return dark & inside_of_long(edge, edges, s);
+    if (edges == 0) return lanes_of;
+    if (!fits) return lanes_of & inside_of_long(edge, edges, s);
     const F64 dx = to_f64(load(s.x) - splat(s.extent.x_low)), dy = to_f64(load(s.y) - splat(s.extent.y_low));
-    for (int k = 0; k < edges && dark != 0; ++k) {
+    for (int k = 0; k < edges && lanes_of != 0; ++k) {
         const F64 value =
             (splat(static_cast<double>(edge[k].A)) * dx + splat(static_cast<double>(edge[k].B)) * dy) +
             splat(static_cast<double>(edge[k].e));
-        dark &= bits(greater_equal(value, splat(0.0)));
+        lanes_of &= bits(greater_equal(value, splat(0.0)));
     }
-    return dark;
+    return lanes_of;
+}
+
+/// Of dark lanes near the plane those that seem behind it only for being snapped beside their place.
+OBSCURA_INLINE std::uint32_t snapped(const CasterTriangle& t, const ExactPoints& points,
+                                     const ExactLight& light, const Bunch& s, const F64& height_above,
+                                     std::uint32_t dark) {
+    alignas(64) double height[16];
+    store(height, height_above);
+    std::uint32_t beside = 0;
+    for (; dark != 0; dark &= dark - 1) {
+        const int k = __builtin_ctz(dark);
+        const std::int32_t at = s.point[k];
+        const float p[3] = {static_cast<float>(s.px[k] - light.eye[0]),
+                            static_cast<float>(s.py[k] - light.eye[1]),
+                            static_cast<float>(s.pz[k] - light.eye[2])};
+        const float g[3] = {points.gx[at], points.gy[at], points.gz[at]};
+        const float most_behind = static_cast<float>(-s.lowest[k]) + exact_snap(light, p, g, t.n);
+        beside |= static_cast<std::uint32_t>(-height[k] <= static_cast<double>(most_behind)) << k;
+    }
+    return beside;
+}
+
+/// Open lanes of the bunch that the triangle darkens.
+OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, const ExactPoints& points,
+                                      const ExactLight& light, const Bunch& s) {
+    if (s.one_face && static_cast<std::int32_t>(t.face) == s.face[0]) return 0;
+    const F64 height_above =
+        (splat(t.n[0]) * load(s.px) + splat(t.n[1]) * load(s.py)) + (splat(t.n[2]) * load(s.pz) + splat(t.d));
+    std::uint32_t dark = s.open & ~bits(greater_equal(height_above, load(s.lowest)));
+    if (dark == 0) return 0;
+    if (!s.one_face) dark &= ~bits(equal(load(s.face), splat(static_cast<std::int32_t>(t.face))));
+    if (!(z_low <= s.z_low)) dark &= bits(less_equal(splat(z_low), load(s.z)));
+    if (dark != 0) dark = covered(t, s, dark);
+    if (dark == 0 || !is_seen(t, light.viewer)) return dark;
+    const std::uint32_t near = dark & bits(greater_equal(height_above, splat(s.near)));
+    return near == 0 ? dark : dark & ~snapped(t, points, light, s, height_above, near);
 }
 
 /// Triangles near many bunches, sixteen by sixteen as boxes are: what tells quickly that one darkens none of
@@ -197,7 +224,6 @@ struct Nearby {
     CasterBoxes boxes[room / 16];
     alignas(64) std::int32_t x[3][room], y[3][room];
     alignas(64) float n[3][room], d[room];  ///< the plane, relative to the eye
-    alignas(64) float seen[room];           ///< 1: the camera sees its side of the light; else 0
     std::uint32_t triangle[room];
     int count = 0;
 
@@ -217,7 +243,6 @@ struct Nearby {
         }
         d[count] = static_cast<float>((t.n[0] * light.eye[0] + t.n[1] * light.eye[1]) +
                                       (t.n[2] * light.eye[2] + t.d));
-        seen[count] = is_seen(t, light.viewer) ? 1.0f : 0.0f;
         triangle[count++] = index;
     }
     /// Places after the last hold nothing.
@@ -242,8 +267,7 @@ struct Nearby {
             (abs(n0) * splat(s.half[0]) + abs(n1) * splat(s.half[1])) + abs(n2) * splat(s.half[2]);
         const float size = (abs_of(s.middle[0]) + abs_of(s.middle[1])) + abs_of(s.middle[2]);
         const F32 rounding = splat(0x1p-21f) * (splat(size) + abs(offset));
-        may &= bits(less(height - reach - rounding,
-                         splat(-0.99f * s.rounding) - splat(0.99f * s.snapping) * load(seen + first)));
+        may &= bits(less(height - reach - rounding, splat(-0.99f * s.rounding)));
         if (may == 0) return 0;
         // All of the bunch is outside of an edge.
         const std::int32_t half_x = s.extent.x_high / 2 - s.extent.x_low / 2 + 1,
@@ -269,7 +293,8 @@ OBSCURA_INLINE Extent united(const Extent& a, const Extent& b) {
 }
 
 /// Darkens the open lanes of `n` bunches, which are of one view.
-void darken(const ExactLight& light, const ExactView& view, Bunch* bunch, int n, ExactCounts& counts) {
+void darken(const ExactPoints& points, const ExactLight& light, const ExactView& view, Bunch* bunch, int n,
+            ExactCounts& counts) {
     Extent all = bunch[0].extent;
     for (int b = 1; b < n; ++b)
         all = united(all, bunch[b].extent);
@@ -288,7 +313,7 @@ void darken(const ExactLight& light, const ExactView& view, Bunch* bunch, int n,
         Bunch& s = bunch[b];
         const auto test = [&](std::uint32_t triangle, float z_low) {
             ++counts.triangles;
-            s.open &= ~darkened(view.triangles[triangle], z_low, light.viewer, s);
+            s.open &= ~darkened(view.triangles[triangle], z_low, points, light, s);
             return s.open != 0;
         };
         if (!complete) {
@@ -325,7 +350,7 @@ void exact_darken(const ExactPoints& points, const ExactLight& light, const Exac
             gather_bunch(points, light, samples, order + next, members, bunch[n]);
             next += members;
         }
-        darken(light, light.view[view], bunch, n, counts);
+        darken(points, light, light.view[view], bunch, n, counts);
         for (std::int32_t i = first; i < next; ++i) {
             const std::int32_t at = i - first;
             if ((bunch[at / lanes].open >> (at % lanes) & 1u) != 0) continue;

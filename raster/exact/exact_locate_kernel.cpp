@@ -24,14 +24,13 @@ OBSCURA_INLINE F64 row(const double (&m)[4], const F64& x, const F64& y, const F
 /// Sixteen points on the grid of one view.
 struct Located {
     I32 x, y;
-    F32 z, rounding, uncertain;
+    F32 z, rounding;
     std::uint32_t looks;
 };
 
-OBSCURA_INLINE Located located(const ExactLight& light, const ExactView& view, const Vec3x16& p) {
+OBSCURA_INLINE Located located(const ExactView& view, const F64& x, const F64& y, const F64& z,
+                               const Vec3x16& p) {
     Located to;
-    const F64 x = splat(light.eye[0]) + to_f64(p.x), y = splat(light.eye[1]) + to_f64(p.y),
-              z = splat(light.eye[2]) + to_f64(p.z);
     F64 w = splat(1.0);
     to.looks = 0xffffu;
     if (view.perspective) {
@@ -50,20 +49,18 @@ OBSCURA_INLINE Located located(const ExactLight& light, const ExactView& view, c
                      less_equal(to.y, last));
     to.z = to_f32(row(view.to_map[2], x, y, z) * inv);
     const F32 reach = (abs(p.x) + abs(p.y)) + abs(p.z);
-    to.rounding = splat(exact_position_error) * reach + splat(static_cast<float>(view.step_m)) * to_f32(w);
-    to.uncertain = (splat(light.snapping_m) + splat(light.snapping_per_m) * reach) + to.rounding;
+    to.rounding = splat(exact_depth_error) * reach + splat(static_cast<float>(view.step_m)) * to_f32(w);
     return to;
 }
 
 OBSCURA_INLINE void append(const Located& from, std::uint32_t lanes_of, std::int32_t first_point,
                            std::int32_t view, ExactSamples& to) {
     alignas(64) std::int32_t x[16], y[16];
-    alignas(64) float z[16], rounding[16], uncertain[16];
+    alignas(64) float z[16], rounding[16];
     store(x, from.x);
     store(y, from.y);
     store(z, from.z);
     store(rounding, from.rounding);
-    store(uncertain, from.uncertain);
     std::int32_t n = to.count;
     for (; lanes_of != 0; lanes_of &= lanes_of - 1, ++n) {
         const int k = __builtin_ctz(lanes_of);
@@ -71,7 +68,6 @@ OBSCURA_INLINE void append(const Located& from, std::uint32_t lanes_of, std::int
         to.y[n] = y[k];
         to.z[n] = z[k];
         to.rounding[n] = rounding[k];
-        to.uncertain[n] = uncertain[k];
         to.point[n] = static_cast<std::uint32_t>(first_point + k);
         to.view[n] = static_cast<std::uint8_t>(view);
     }
@@ -87,7 +83,9 @@ void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSampl
         const std::uint32_t covered = points.covered[at / 16];
         lit[at / 16] = 0;
         if (covered == 0) continue;
-        const Vec3x16 p = load3(points.px + at, points.py + at, points.pz + at);
+        const F64 x = load(points.px + at), y = load(points.py + at), z = load(points.pz + at);
+        const Vec3x16 p = {to_f32(x - splat(light.eye[0])), to_f32(y - splat(light.eye[1])),
+                           to_f32(z - splat(light.eye[2]))};
         const Vec3x16 g = load3(points.gx + at, points.gy + at, points.gz + at);
         const Vec3x16 l = light.directional ? splat3(light.to_light) : splat3(light.position) - p;
         const std::uint32_t asking = covered & (bits(less(splat(0.0f), dot(g, l))) | points.thin[at / 16]);
@@ -97,7 +95,7 @@ void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSampl
         for (std::int32_t v = 0; v < light.views; ++v) {
             const std::uint32_t of_view = asking & bits(equal(face, splat(v)));
             if (of_view == 0 || light.view[v].levels == 0) continue;
-            const Located place = located(light, light.view[v], p);
+            const Located place = located(light.view[v], x, y, z, p);
             append(place, of_view & place.looks, at, v, samples);
         }
     }

@@ -14,8 +14,9 @@ namespace {
 struct Place {
     Vec3d p;  ///< world space
     std::int32_t x = 0, y = 0;
-    float z = 0, rounding = 0, uncertain = 0;
+    float z = 0, rounding = 0;
     std::uint32_t face = 0;
+    int point = 0;
 };
 
 double row(const double (&m)[4], Vec3d p) {
@@ -43,10 +44,23 @@ bool is_seen(const CasterTriangle& t, const double (&viewer)[4]) {
     return (t.n[0] * viewer[0] + t.n[1] * viewer[1]) + (t.n[2] * viewer[2] + t.d * viewer[3]) > 0;
 }
 
-bool darkens(const CasterTriangle& t, float z_low, const ExactLight& light, const Place& s) {
+/// Whether point `at` seems to be behind the plane only for being snapped beside its place.
+bool is_snapped(const CasterTriangle& t, const ExactLight& light, const ExactPoints& points, int at,
+                double behind, float rounding) {
+    if (!is_seen(t, light.viewer)) return false;
+    const float p[3] = {static_cast<float>(points.px[at] - light.eye[0]),
+                        static_cast<float>(points.py[at] - light.eye[1]),
+                        static_cast<float>(points.pz[at] - light.eye[2])};
+    const float g[3] = {points.gx[at], points.gy[at], points.gz[at]};
+    return behind <= static_cast<double>(rounding + exact_snap(light, p, g, t.n));
+}
+
+bool darkens(const CasterTriangle& t, float z_low, const ExactLight& light, const ExactPoints& points,
+             const Place& s) {
     if (t.face == s.face || !(z_low <= s.z) || !covers(t, s)) return false;
-    const float uncertain = is_seen(t, light.viewer) ? s.uncertain : s.rounding;
-    return !(height_above(t, s) >= -static_cast<double>(uncertain));
+    const double height = height_above(t, s);
+    return !(height >= -static_cast<double>(s.rounding)) &&
+           !is_snapped(t, light, points, s.point, -height, s.rounding);
 }
 
 bool may_hold(const CasterBoxes& b, int k, const Place& s) {
@@ -55,18 +69,18 @@ bool may_hold(const CasterBoxes& b, int k, const Place& s) {
 }
 
 /// Whether anything in group i of boxes of a level darkens the sample.
-bool darkened_by(const ExactLight& light, const ExactView& view, int level, std::size_t i, const Place& s,
-                 ExactCounts& counts) {
+bool darkened_by(const ExactLight& light, const ExactPoints& points, const ExactView& view, int level,
+                 std::size_t i, const Place& s, ExactCounts& counts) {
     const CasterBoxes& boxes = view.boxes[level][i];
     ++counts.groups;
     for (int k = 0; k < 16; ++k) {
         if (!may_hold(boxes, k, s)) continue;
         const std::size_t child = 16 * i + static_cast<std::size_t>(k);
         if (level > 0) {
-            if (darkened_by(light, view, level - 1, child, s, counts)) return true;
+            if (darkened_by(light, points, view, level - 1, child, s, counts)) return true;
         } else {
             ++counts.triangles;
-            if (darkens(view.triangles[child], boxes.z_low[k], light, s)) return true;
+            if (darkens(view.triangles[child], boxes.z_low[k], light, points, s)) return true;
         }
     }
     return false;
@@ -76,13 +90,12 @@ bool is(const std::uint32_t* mask, int at) {
     return (mask[at / 16] >> (at % 16) & 1u) != 0;
 }
 
-Vec3f position(const ExactPoints& points, int at) {
+Vec3d position(const ExactPoints& points, int at) {
     return {points.px[at], points.py[at], points.pz[at]};
 }
 
-Vec3d world(const ExactLight& light, Vec3f p) {
-    return {light.eye[0] + static_cast<double>(p.x), light.eye[1] + static_cast<double>(p.y),
-            light.eye[2] + static_cast<double>(p.z)};
+Vec3f relative(const ExactLight& light, Vec3d p) {
+    return to_float(p - Vec3d{light.eye[0], light.eye[1], light.eye[2]});
 }
 
 Vec3f towards(const ExactLight& light, Vec3f p) {
@@ -101,7 +114,7 @@ struct Question {
 Question question(const ExactPoints& points, const ExactLight& light, int at) {
     Question q;
     if (!is(points.covered, at)) return q;
-    const Vec3f p = position(points, at), to_light = towards(light, p);
+    const Vec3f p = relative(light, position(points, at)), to_light = towards(light, p);
     const Vec3f g{points.gx[at], points.gy[at], points.gz[at]};
     if (!(0.0f < dot(g, to_light)) && !is(points.thin, at)) return q;
     q.asks = true;
@@ -109,7 +122,8 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
 
     const ExactView& view = light.view[q.view];
     Place& place = q.place;
-    place.p = world(light, p);
+    place.p = position(points, at);
+    place.point = at;
     double w = 1.0;
     q.looks = view.levels > 0;
     if (view.perspective) {
@@ -126,8 +140,7 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
     q.looks = q.looks && place.x >= 0 && place.x <= view.steps && place.y >= 0 && place.y <= view.steps;
     place.z = static_cast<float>(row(view.to_map[2], place.p) * inv);
     const float reach = (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
-    place.rounding = exact_position_error * reach + static_cast<float>(view.step_m) * static_cast<float>(w);
-    place.uncertain = (light.snapping_m + light.snapping_per_m * reach) + place.rounding;
+    place.rounding = exact_depth_error * reach + static_cast<float>(view.step_m) * static_cast<float>(w);
     place.face = points.face[at];
     return q;
 }
@@ -147,7 +160,6 @@ void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSampl
         samples.y[i] = q.place.y;
         samples.z[i] = q.place.z;
         samples.rounding[i] = q.place.rounding;
-        samples.uncertain[i] = q.place.uncertain;
         samples.point[i] = static_cast<std::uint32_t>(at);
         samples.view[i] = static_cast<std::uint8_t>(q.view);
     }
@@ -159,15 +171,16 @@ void exact_darken(const ExactPoints& points, const ExactLight& light, const Exac
         const std::uint32_t i = order[k];
         const auto at = static_cast<int>(samples.point[i]);
         const ExactView& view = light.view[samples.view[i]];
-        const Place place{world(light, position(points, at)),
+        const Place place{position(points, at),
                           samples.x[i],
                           samples.y[i],
                           samples.z[i],
                           samples.rounding[i],
-                          samples.uncertain[i],
-                          points.face[at]};
+                          points.face[at],
+                          at};
         ++counts.samples;
-        if (darkened_by(light, view, view.levels - 1, 0, place, counts)) lit[at / 16] &= ~(1u << (at % 16));
+        if (darkened_by(light, points, view, view.levels - 1, 0, place, counts))
+            lit[at / 16] &= ~(1u << (at % 16));
     }
 }
 
@@ -180,15 +193,14 @@ ExactShadow exact_shadow(const ExactPoints& points, const ExactLight& light, int
     shadow.x = q.place.x;
     shadow.y = q.place.y;
     shadow.rounding_m = q.place.rounding;
-    shadow.uncertain_m = q.place.uncertain;
     shadow.on_map = q.looks;
     if (!q.looks) return shadow;
     const ExactView& view = light.view[q.view];
-    const Vec3d to_light = to_double(normalize(towards(light, position(points, at))));
+    const Vec3d to_light = to_double(normalize(towards(light, relative(light, position(points, at)))));
     // Every triangle, whatever the boxes say.
     for (std::size_t i = 0; i < static_cast<std::size_t>(view.count); ++i) {
         const CasterTriangle& t = view.triangles[i];
-        if (!darkens(t, view.boxes[0][i / 16].z_low[i % 16], light, q.place)) continue;
+        if (!darkens(t, view.boxes[0][i / 16].z_low[i % 16], light, points, q.place)) continue;
         ++shadow.triangles;
         const double behind = -height_above(t, q.place);
         const double distance = behind / dot(Vec3d{t.n[0], t.n[1], t.n[2]}, to_light);

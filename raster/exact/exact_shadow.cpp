@@ -25,7 +25,6 @@ ExactWork::ExactWork(std::size_t most_points)
       y_(most_points),
       z_(most_points),
       rounding_(most_points),
-      uncertain_(most_points),
       point_(most_points),
       order_(most_points),
       other_order_(most_points),
@@ -36,7 +35,6 @@ ExactWork::ExactWork(std::size_t most_points)
     samples_.y = y_.data();
     samples_.z = z_.data();
     samples_.rounding = rounding_.data();
-    samples_.uncertain = uncertain_.data();
     samples_.point = point_.data();
     samples_.view = view_.data();
 }

@@ -10,7 +10,7 @@
 
 namespace obscura {
 
-/// Working memory of exact_shadows(): 41 bytes a point.
+/// Working memory of exact_shadows(): 37 bytes a point.
 class ExactWork {
   public:
     explicit ExactWork(std::size_t most_points);
@@ -27,7 +27,7 @@ class ExactWork {
 
     ExactSamples samples_;
     Buffer<std::int32_t> x_, y_;
-    Buffer<float> z_, rounding_, uncertain_;
+    Buffer<float> z_, rounding_;
     Buffer<std::uint32_t> point_, order_, other_order_, key_, other_key_;
     Buffer<std::uint8_t> view_;
 };
@@ -41,7 +41,7 @@ struct ExactShadow {
     int view = 0;
     bool on_map = false;        ///< false: lit without looking, before the near plane or beyond what casts
     std::int32_t x = 0, y = 0;  ///< on the light's grid
-    float rounding_m = 0, uncertain_m = 0;  ///< of the point's place; the latter with the camera's snapping
+    float rounding_m = 0;       ///< metres that are uncertain of the point's place
     // In shadow only:
     std::int64_t triangles = 0;  ///< how many darken it
     std::uint32_t triangle = 0;  ///< of these, the one that stands nearest to the point

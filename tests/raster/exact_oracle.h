@@ -42,8 +42,14 @@ inline Quad square_root(Quad v) {
 /// The definition at the top of raster/exact/exact.h, told once more.
 class BruteForce {
   public:
-    BruteForce(const Mesh& mesh, const Light& light, Vec3d eye, const std::vector<Casters>& casters)
-        : mesh_(mesh), light_(light), eye_(eye), casters_(casters), snapped_(casters.size()) {
+    BruteForce(const Mesh& mesh, const Light& light, Vec3d eye, double snapping_per_m,
+               const std::vector<Casters>& casters)
+        : mesh_(mesh),
+          light_(light),
+          eye_(eye),
+          snapping_(snapping_per_m),
+          casters_(casters),
+          snapped_(casters.size()) {
         for (std::size_t v = 0; v < casters.size(); ++v) {
             for (const Triangle& tri : mesh.triangles) {
                 Snapped& s = snapped_[v].emplace_back();
@@ -54,7 +60,7 @@ class BruteForce {
     }
 
     /// 1 lit, 0 dark, -1 closer to the limit than quadruple precision of the planes' doubles can tell.
-    int lit(Vec3d p, const ref::ExactShadow& s, std::uint32_t face) const {
+    int lit(Vec3d p, Vec3d g, const ref::ExactShadow& s, std::uint32_t face) const {
         const View& view = casters_[static_cast<std::size_t>(s.view)].view;
         bool unsure = false;
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
@@ -65,7 +71,7 @@ class BruteForce {
                 whole ? oracle::covers(on_grid.x, on_grid.y, s.x, s.y) : meets_clipped(view, t, p);
             unsure |= covered < 0;
             if (covered <= 0) continue;
-            const int side = behind(t, p, s);
+            const int side = behind(t, p, g, s);
             if (side < 0) unsure = true;
             if (side <= 0) continue;
             // Nearer to the light than the triangle's nearest corner: only where its plane is extrapolated.
@@ -138,7 +144,7 @@ class BruteForce {
     }
     /// Whether p lies behind the triangle's plane, seen from the light, by more than `uncertain`: 1 yes, 0
     /// no, -1 too close to tell.
-    int behind(std::size_t t, Vec3d p, const ref::ExactShadow& s) const {
+    int behind(std::size_t t, Vec3d p, Vec3d g, const ref::ExactShadow& s) const {
         const Triangle& tri = mesh_.triangles[t];
         const Vec3q a = quad(to_double(mesh_.positions[tri.v[0]])),
                     b = quad(to_double(mesh_.positions[tri.v[1]])),
@@ -160,19 +166,29 @@ class BruteForce {
         const Quad doubt =
             2 * off + 1e-12 * (1 + std::fabs(static_cast<double>(a.x)) + longest) / (least_height / longest);
         const Quad signed_height = towards > 0 ? height : -height;
-        // How much is, hangs on whether the camera sees the side that the light does.
-        const Quad eye_height = dot(n, quad(eye_) - a) / length;
-        if ((eye_height < 0 ? -eye_height : eye_height) <= doubt) return -1;
-        const bool seen = (eye_height > 0) == (towards > 0);
-        const Quad over = signed_height + static_cast<double>(seen ? s.uncertain_m : s.rounding_m);
         if ((towards < 0 ? -towards : towards) <= doubt) return -1;
-        if ((over < 0 ? -over : over) <= doubt) return -1;
-        return over < 0 ? 1 : 0;
+        const Quad behind = -signed_height - static_cast<double>(s.rounding_m);
+        if ((behind < 0 ? -behind : behind) <= doubt) return -1;
+        if (behind < 0) return 0;
+        // Camera and light see the same side: 1/256 pixel along the point's own plane, across the other.
+        const Quad eye_height = dot(n, quad(eye_) - a) / length;
+        if ((eye_height > 0) != (towards > 0))
+            return (eye_height < 0 ? -eye_height : eye_height) <= doubt ? -1 : 1;
+        const Vec3d v = eye_ - p;
+        const double reach = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z),
+                     cosine = std::max(dot(g, v) / length_of(v), 1.0 / 16);
+        const Vec3q sine = cross(quad(g), n);
+        const Quad snap = snapping_ * reach / cosine * square_root(dot(sine, sine)) / length;
+        const Quad beyond = behind - snap;
+        if ((beyond < 0 ? -beyond : beyond) <= doubt + 1e-4 * snap + 1e-6 * snapping_ * reach) return -1;
+        return beyond > 0 ? 1 : 0;
     }
+    static double length_of(Vec3d v) { return std::sqrt(dot(v, v)); }
 
     const Mesh& mesh_;
     const Light& light_;
     Vec3d eye_;
+    double snapping_;
     const std::vector<Casters>& casters_;
     std::vector<std::vector<Snapped>> snapped_;
 };

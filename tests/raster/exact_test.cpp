@@ -26,10 +26,11 @@ using namespace exact_scenes;
 
 /// Points on a mesh, in the form that exact shadows ask for.
 struct Points {
-    std::vector<float> p[3], g[3];
+    std::vector<double> p[3];
+    std::vector<float> g[3];
     std::vector<std::uint32_t> face, covered, thin;
 
-    void add(Vec3f at, Vec3f normal, std::uint32_t face_id, bool is_thin) {
+    void add(Vec3d at, Vec3f normal, std::uint32_t face_id, bool is_thin) {
         const std::size_t i = face.size();
         for (int k = 0; k < 3; ++k) {
             p[k].push_back(k == 0 ? at.x : k == 1 ? at.y : at.z);
@@ -97,9 +98,13 @@ Points draw_points(Source& source, const Mesh& mesh, Vec3d eye, int count) {
             u = 1 - u;
             v = 1 - v;
         }
-        const Vec3f p = to_float(a + (b - a) * u + (c - a) * v - eye);
-        Vec3f n = to_float(mesh.faces[mesh.face[t]].n);
-        if (dot(n, p) > 0) n = -n;
+        // What a camera snaps beside its triangle.
+        if (source.below(6) == 0) u -= 1e-3 * source.between(0, 1);
+        const Vec3f seen = to_float(a + (b - a) * u + (c - a) * v - eye);
+        const Plane& plane = mesh.faces[mesh.face[t]];
+        const Vec3d near = eye + to_double(seen), p = near - plane.n * (dot(plane.n, near) + plane.d);
+        Vec3f n = to_float(plane.n);
+        if (dot(n, seen) > 0) n = -n;
         points.add(p, n, mesh.face[t], source.below(8) == 0);
     }
     points.fill_up();
@@ -123,7 +128,8 @@ void compare(unsigned seed, int count, Outcome& sum) {
     TriangleSetup scratch;
     const Exec exec;
     const auto casters = build_casters(mesh, light, exec, scratch);
-    const CameraRays rays = rays_from(eye, std::pow(10, source.between(-4, -2)));
+    const double pixel = std::pow(10, source.between(-4, -2));
+    const CameraRays rays = rays_from(eye, pixel);
     const ExactLight exact = exact_light(light, casters, rays);
     const Points drawn = draw_points(source, mesh, eye, count);
     const ExactPoints points = drawn.view();
@@ -146,20 +152,21 @@ void compare(unsigned seed, int count, Outcome& sum) {
         EXPECT_EQ(work_done.triangles, of_kernels->triangles) << isa_name(isa);
     }
 
-    const oracle::BruteForce brute(mesh, light, eye, casters);
+    const oracle::BruteForce brute(mesh, light, eye, pixel / 256, casters);
     for (int i = 0; i < drawn.count(); ++i) {
         const ref::ExactShadow s = ref::exact_shadow(points, exact, i);
         const bool is_lit = (lit[static_cast<std::size_t>(i) / 16] >> (i % 16) & 1u) != 0;
         ASSERT_EQ(is_lit, s.asks && s.lit) << "point " << i;
         if (!s.asks) continue;
         const auto at = static_cast<std::size_t>(i);
-        const Vec3d p = eye + to_double(Vec3f{drawn.p[0][at], drawn.p[1][at], drawn.p[2][at]});
+        const Vec3d p{drawn.p[0][at], drawn.p[1][at], drawn.p[2][at]};
+        const Vec3d g = to_double(Vec3f{drawn.g[0][at], drawn.g[1][at], drawn.g[2][at]});
         ++sum.points;
         if (is_lit && !s.on_map) {
             ++sum.lit;
             continue;
         }
-        const int truth = brute.lit(p, s, drawn.face[at]);
+        const int truth = brute.lit(p, g, s, drawn.face[at]);
         if (truth < 0) {
             ++sum.unsure;
             continue;
