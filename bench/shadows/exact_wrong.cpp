@@ -40,13 +40,13 @@ class WrongSample {
         const Vec3f p{s.px[at], s.py[at], s.pz[at]};
         triangle_ = s.triangle[at];
         face_ = scene_.mesh->face[triangle_];
-        place_ = on_plane(plane(), scene_.points->eye + to_double(p));
+        given_ = scene_.points->eye + to_double(p);
+        place_ = on_plane(plane(), given_);
         const std::size_t pixel = scene_.points->pixel(block, at);
         const auto width = static_cast<std::size_t>(scene_.points->width);
         x_ = static_cast<double>(pixel % width) + 0.5;
         y_ = static_cast<double>(pixel / width) + 0.5;
         const float reach = (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
-        across_m_ = step_m() + 0x1p-21 * static_cast<double>(reach);
         uncertain_m_ = static_cast<double>(light_.uncertain_m + light_.uncertain_per_m * reach) + step_m();
     }
 
@@ -71,7 +71,7 @@ class WrongSample {
             const double i = side % 3 - 1, j = side / 3 - 1;
             if (side == 4) continue;
             const Vec3d on_picture = seen_at(camera_, x_ + i / 256, y_ + j / 256, plane(), place_);
-            if (rays_say(on_picture, shown) || rays_say(place_ + (u * i + v * j) * across_m_, shown))
+            if (rays_say(on_picture, shown) || rays_say(place_ + (u * i + v * j) * step_m(), shown))
                 return true;
         }
         return false;
@@ -81,7 +81,10 @@ class WrongSample {
         if (rays_say_beside(plane(), shown)) return true;
         // What is just as near by as the method allows rounds to either side.
         const double within = uncertain_m_ * (1 + 1e-6);
-        if (shown == Truth::lit) return !scene_.rays->occluded_beyond(place_, face_, scene_.to_light, within);
+        if (shown == Truth::lit) {
+            return !scene_.rays->occluded_beyond(place_, face_, scene_.to_light, within) ||
+                   !scene_.rays->occluded_beyond(given_, face_, scene_.to_light, within);
+        }
         const BlockPoints points(scene_.points->blocks[block_], *scene_.mesh);
         const std::uint32_t caster = ref::exact_shadow(points.points, light_, at_).triangle;
         return rays_say_beside(scene_.mesh->faces[scene_.mesh->face[caster]], shown);
@@ -103,10 +106,9 @@ class WrongSample {
     std::size_t block_;
     int at_;
     std::uint32_t triangle_ = 0, face_ = 0;
-    Vec3d place_;           ///< on its plane
+    Vec3d given_, place_;   ///< as floats have it; on its plane
     double x_ = 0, y_ = 0;  ///< of its pixel's centre
     double uncertain_m_ = 0;
-    double across_m_ = 0;  ///< of it, across the light: that its position is a float, and a step
 };
 
 }  // namespace

@@ -22,12 +22,12 @@ struct ExactPicture {
 /// Why sample `at` of a block is wrong, the first that applies. u: what is uncertain of the sample's place,
 /// in metres (raster/exact/exact.h).
 ///  - off: the ray of the pixel's centre meets the sample's plane beyond the edges of the sample's triangle;
-///  - edge: rays from the place 1/256 pixel away on its plane, to one of eight sides, or across the light as
-///  far
-///    as floats and a step of the light's grid go, likewise, say what is shown;
-///  - beside: rays say so from u away along its plane's normal, to either side, or when they leave out every
-///  face
-///    whose plane passes within u, or from u away along the normal of the face that the method has darken it;
+///  - edge: rays from the place 1/256 pixel away on its plane, to one of eight sides, or a step away on the
+///    light's grid, likewise, say what is shown;
+///  - beside: rays say so from u away along its plane's normal, to either side, or (from its position in
+///  floats,
+///    too) when they leave out every face whose plane passes within u, or from u away along the normal of the
+///    face that the method has darken it;
 ///  - unexplained.
 Wrong kind_of_exact(const ExactPicture& picture, std::size_t block, int at, Truth shown);
 
