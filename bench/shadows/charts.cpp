@@ -122,6 +122,7 @@ std::string lookup_script(const std::vector<TimeRow>& rows) {
 MethodStyle shadow_style(const std::string& method) {
     if (method == compressed_name) return {"#0072B2", 6, 7};
     if (method == dense_name) return {"#D55E00", 4, 5};
+    if (method == exact_name) return {"#CC79A7", 12, 13};
     return {"#009E73", 8, 9};
 }
 

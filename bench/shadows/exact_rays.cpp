@@ -30,17 +30,20 @@ struct RayContext {
     double ulp;
     Vec3d point, direction;
     std::uint32_t face;
+    double beside_m;  ///< faces whose planes pass as close to the point are left out
 };
 
 bool is_own_surface(const RayContext& ray, std::uint32_t triangle, double t) {
     const std::uint32_t face = ray.mesh->face[triangle];
     if (face == ray.face) return true;
+    const Plane& plane = ray.mesh->faces[face];
+    const double height = dot(plane.n, ray.point) + plane.d;
+    if (std::fabs(height) < ray.beside_m) return true;
     if (t > judged_ulps * ray.ulp) return false;
     // Distance along the ray to the plane of the face that was hit; edge-on it says nothing.
-    const Plane& plane = ray.mesh->faces[face];
     const double across = dot(plane.n, ray.direction);
     if (std::fabs(across) < 1e-9) return true;
-    return -(dot(plane.n, ray.point) + plane.d) / across <= own_surface_ulps * ray.ulp;
+    return -height / across <= own_surface_ulps * ray.ulp;
 }
 
 void ignore_own_surface(const RTCFilterFunctionNArguments* args) {
@@ -65,6 +68,10 @@ ExactRays::ExactRays(const Mesh& mesh) : scene_(std::make_unique<Scene>(mesh)) {
 ExactRays::~ExactRays() = default;
 
 bool ExactRays::occluded(Vec3d point, std::uint32_t face, Vec3d to_light) const {
+    return occluded_beyond(point, face, to_light, 0);
+}
+
+bool ExactRays::occluded_beyond(Vec3d point, std::uint32_t face, Vec3d to_light, double beside_m) const {
     RayContext context;
     rtcInitIntersectContext(&context.base);
     context.base.filter = ignore_own_surface;
@@ -73,6 +80,7 @@ bool ExactRays::occluded(Vec3d point, std::uint32_t face, Vec3d to_light) const 
     context.point = point;
     context.direction = to_light;
     context.face = face;
+    context.beside_m = beside_m;
     const Vec3f origin = to_float(context.point), direction = to_float(to_light);
     RTCRay ray{};
     ray.org_x = origin.x;

@@ -25,6 +25,9 @@ class ExactRays {
     /// Whether anything but `face` lies between `point` and a light in unit direction `to_light`.
     bool occluded(Vec3d point, std::uint32_t face, Vec3d to_light) const;
 
+    /// The same, but for faces whose planes pass within `beside_m` of the point.
+    bool occluded_beyond(Vec3d point, std::uint32_t face, Vec3d to_light, double beside_m) const;
+
   private:
     struct Scene;
     std::unique_ptr<Scene> scene_;

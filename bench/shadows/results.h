@@ -12,6 +12,7 @@ namespace obscura {
 
 inline constexpr const char* dense_name = "dense";
 inline constexpr const char* compressed_name = "compressed";
+inline constexpr const char* exact_name = "exact";
 inline constexpr const char* embree_name = "Embree";
 
 /// Shadows of one map against exact rays.
@@ -67,12 +68,13 @@ struct DirectionRow {
     double bottom_up_s = 0, top_down_s = 0;  ///< from intervals to the tree
 };
 
-/// The default shadow of a scene under one sun against exact rays.
+/// A shadow of a scene under one sun, as frames make it, against exact rays.
 struct SweepRow {
     std::string scene;
     std::size_t triangles = 0;
     double elevation_deg = 0;
-    int asked = 0;  ///< texels a side; 0: auto
+    std::string method;
+    int asked = 0;  ///< compressed: texels a side; 0: auto
     int found = 0;  ///< what it came to
     std::uint64_t bytes = 0;
     double build_s = 0;

@@ -99,14 +99,14 @@ void trace_single(const RayState& state, std::size_t b) {
 }  // namespace
 
 Session open_shadow_rays(const Mesh& mesh, const VisiblePoints& points, Vec3d to_light,
-                         std::vector<std::uint8_t>& shown, const Exec& exec) {
+                         std::vector<std::uint8_t>& shown, const Exec& exec, double off) {
     const auto state = std::make_shared<RayState>(exec);
     state->points = &points;
     state->shown = &shown;
     state->eye = to_float(points.eye);
     state->to_light = to_float(to_light);
     const Bounds bounds = bounds_of(mesh);
-    state->offset_m = static_cast<float>(1e-4 * length(bounds.high - bounds.low));
+    state->offset_m = static_cast<float>(off * length(bounds.high - bounds.low));
     Session session;
     session.version = state->device.version();
     session.prepare_ms =

@@ -6,7 +6,8 @@ namespace obscura {
 namespace {
 
 /// By Okabe and Ito, in the order of Wrong.
-constexpr Rgb8 kind_color[wrong_kinds] = {{230, 159, 0}, {0, 114, 178}, {213, 94, 0}, {204, 121, 167}};
+constexpr Rgb8 kind_color[wrong_kinds] = {{230, 159, 0},  {0, 114, 178},  {213, 94, 0},  {204, 121, 167},
+                                          {240, 228, 66}, {86, 180, 233}, {0, 158, 115}, {0, 0, 0}};
 constexpr Rgb8 background{250, 250, 250};
 
 /// Grey of every pixel, in [0, 1]; -1 where nothing is seen.

@@ -60,6 +60,14 @@ const char* wrong_name(Wrong kind) {
             return "outline";
         case Wrong::interval:
             return "inside";
+        case Wrong::off:
+            return "off its triangle";
+        case Wrong::edge:
+            return "edge";
+        case Wrong::beside:
+            return "beside";
+        case Wrong::unexplained:
+            return "unexplained";
     }
     return "";
 }
@@ -98,10 +106,9 @@ std::vector<std::uint8_t> shown_shadows(const VisiblePoints& points, const Block
     return shown;
 }
 
-WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_t>& shown,
-                         const LightView& view, const Exec& exec, std::vector<std::uint8_t>* kinds) {
+WrongPixels count_wrong(const TrueShadows& scene, const std::vector<std::uint8_t>& shown,
+                        const KindOfWrong& kind_of, const Exec& exec, std::vector<std::uint8_t>* kinds) {
     const VisiblePoints& points = *scene.points;
-    const Mat4 from_map = inverse(view.to_map);
     if (kinds != nullptr) kinds->assign(scene.truth.size(), 0);
     std::vector<WrongPixels> parts(points.blocks.size());
     parallel_for(points.blocks.size(), exec, [&](std::size_t b) {
@@ -115,7 +122,7 @@ WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_
             if (map == truth) continue;
             ++part.wrong;
             if (map == Truth::lit) ++part.leaks;
-            const Wrong kind = kind_of(scene, points.blocks[b], at, map, view, from_map);
+            const Wrong kind = kind_of(b, at, map);
             ++part.by_kind[static_cast<std::size_t>(kind)];
             if (kinds != nullptr) (*kinds)[pixel] = static_cast<std::uint8_t>(1 + static_cast<int>(kind));
         }
@@ -125,6 +132,15 @@ WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_
     for (const WrongPixels& part : parts)
         add(sum, part);
     return sum;
+}
+
+WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_t>& shown,
+                         const LightView& view, const Exec& exec, std::vector<std::uint8_t>* kinds) {
+    const Mat4 from_map = inverse(view.to_map);
+    const auto kind_of_pixel = [&](std::size_t b, int at, Truth map) {
+        return kind_of(scene, scene.points->blocks[b], at, map, view, from_map);
+    };
+    return count_wrong(scene, shown, kind_of_pixel, exec, kinds);
 }
 
 }  // namespace obscura

@@ -20,9 +20,15 @@ enum class Wrong : std::uint8_t {
                ///< that and the pixel: resolution
     interval,  ///< wrong in the texel's middle too: what was tested lies inside the solid that the texel
                ///< sees there (a curved surface, a corner), where any stored depth will do
+    // Of exact shadows, which have no texels (exact_wrong.h):
+    off,          ///< the sample lies beyond its own triangle's edges, where cameras' corners are snapped: it
+                  ///< is on no surface, and what is so there is a matter of taste
+    edge,         ///< the rays agree about a place on its plane as near as its place is uncertain
+    beside,       ///< they agree about a place as near off its plane, or when they leave out what is as near
+    unexplained,  ///< neither
 };
-inline constexpr std::size_t wrong_kinds = 4;
-/// "open surface", "grazing light", "outline", "inside".
+inline constexpr std::size_t wrong_kinds = 8;
+/// "open surface", "grazing light", "outline", "inside", "off its triangle", "edge", "beside", "unexplained".
 const char* wrong_name(Wrong kind);
 
 /// Counts of pixels.
@@ -57,8 +63,16 @@ TrueShadows true_shadows_of(const Scene& scene, const VisiblePoints& points, con
 std::vector<std::uint8_t> shown_shadows(const VisiblePoints& points, const BlockLookup& lookup,
                                         const Exec& exec);
 
-/// Compares; `view` is the map's, and tells which texel a pixel asked. `kinds`, when given, becomes one entry
-/// per pixel, row by row: 0 where it is right, else 1 + its kind.
+/// Why sample `at` of a block is wrong; `shown` is what is shown there, which the truth is not.
+using KindOfWrong = std::function<Wrong(std::size_t block, int at, Truth shown)>;
+
+/// Compares. `kinds`, when given, becomes one entry per pixel, row by row: 0 where it is right, else 1 + its
+/// kind.
+WrongPixels count_wrong(const TrueShadows& scene, const std::vector<std::uint8_t>& shown,
+                        const KindOfWrong& kind_of, const Exec& exec,
+                        std::vector<std::uint8_t>* kinds = nullptr);
+
+/// The same for a map; `view` is the map's, and tells which texel a pixel asked.
 WrongPixels wrong_pixels(const TrueShadows& scene, const std::vector<std::uint8_t>& shown,
                          const LightView& view, const Exec& exec, std::vector<std::uint8_t>* kinds = nullptr);
 

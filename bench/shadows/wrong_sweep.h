@@ -1,6 +1,6 @@
 #pragma once
-// The default shadow of a scene, as frames make it, against exact rays at every pixel. Built only with
-// Embree.
+// Shadows of a scene, as frames make them, against exact rays at every pixel: exact ones and the default
+// tree. Built only with Embree.
 
 #include <cstdint>
 #include <optional>
@@ -30,18 +30,21 @@ struct SweepStage {
     SweepStage(const ShadowRecipe& recipe, const PictureSize& picture);
 };
 
-/// What a shadow with these settings shows. `bytes`: of its trees or map.
+/// What a shadow with these settings shows. `bytes`: of its trees, map or
+/// casters.
 struct SweepResult {
     std::optional<FoundResolution> found;
     std::uint64_t bytes = 0;
-    double build_s = 0;  ///< the whole of prepare_shadows()
+    double build_s = 0;   ///< the whole of prepare_shadows()
+    double lookup_s = 0;  ///< of all pixels, the faster of two times; trees and maps
     WrongPixels wrong;
 };
 
 /// Makes the shadow of lights[0] as a frame of the scene does and looks it up at every point.
 SweepResult sweep_shadow(SweepStage& stage, const ShadowSettings& settings);
 
-/// One tap per pixel at "auto" and at 1,048,576 texels a side, suns at 40 and 8 degrees.
+/// Method exact, then trees with one tap per pixel at "auto" and at 1,048,576 texels a side; suns at 40, 8
+/// and 1 degrees.
 std::vector<SweepRow> measure_sweep(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
                                     const BenchOptions& options);
 

@@ -22,10 +22,14 @@
 #include "scenes/build.h"
 #include "scenes/shapes.h"
 #ifdef OBSCURA_HAS_EMBREE
+#include "app/frame/render_frame.h"
+#include "app/frame/shadows.h"
 #include "bench/shadows/exact_rays.h"
+#include "bench/shadows/exact_wrong.h"
 #include "bench/shadows/map_points.h"
 #include "bench/shadows/methods.h"
 #include "bench/shadows/wrong_pixels.h"
+#include "bench/shadows/wrong_sweep.h"
 
 namespace obscura {
 namespace {
@@ -166,6 +170,82 @@ TEST(ShadowTruth, BarePointsAnswerAsBlocksDo) {
     }
 }
 
+/// A small scene whose light is exact, and what its method shows.
+struct ExactStage {
+    SweepStage stage{{"small", "", {0.55, -0.62, -0.38}, {-0.9, 1.1, 1.6}, {0, 0.1, 0}, small_town},
+                     small_picture};
+    FrameCache cache;
+    TileScene tiles;
+    ExactPicture picture;
+    std::vector<std::uint8_t> shown;
+
+    ExactStage() {
+        Scene& scene = stage.scene;
+        scene.lights[0].shadow.method = ShadowMethod::exact;
+        FrameStats stats;
+        prepare_scene(scene, stage.exec, cache, stats);
+        tiles = prepare_tiles(scene, stage.exec, cache);
+        EXPECT_TRUE(prepare_shadows(scene, 0, stage.exec, cache, tiles, stats));
+        picture = {&stage.truth, &*tiles.lights.at(0).exact, tiles.rays};
+        const BlockLookup lookup = exact_lookup(scene.mesh, *picture.light, stage.exec.isa);
+        shown = shown_shadows(stage.points, lookup, stage.exec);
+    }
+    WrongPixels wrong(std::vector<std::uint8_t>* kinds = nullptr) const {
+        const auto kind_of = [&](std::size_t b, int at, Truth t) { return kind_of_exact(picture, b, at, t); };
+        return count_wrong(stage.truth, shown, kind_of, stage.exec, kinds);
+    }
+};
+
+TEST(ShadowTruth, ExactShadowsAreWrongAtEdgesAlone) {
+    const ExactStage exact;
+    const WrongPixels wrong = exact.wrong();
+    std::printf("%zu of %zu wrong (%s)\n", wrong.wrong, wrong.covered, kinds_text(wrong).c_str());
+    EXPECT_GT(wrong.facing, 5000u);
+    EXPECT_LE(wrong.wrong, 2u);
+    EXPECT_EQ(wrong.by_kind[static_cast<std::size_t>(Wrong::unexplained)], 0u);
+}
+
+/// Turned over, only pixels beside a shadow's outline may be excused.
+TEST(ShadowTruth, WhatIsWrongFarFromEdgesIsNotExplained) {
+    ExactStage exact;
+    const std::size_t wrong_before = exact.wrong().wrong;
+    for (std::uint8_t& lit : exact.shown)
+        lit = lit != 0 ? 0 : 1;
+    std::vector<std::uint8_t> kinds;
+    const WrongPixels wrong = exact.wrong(&kinds);
+    const auto count = [&](Wrong kind) { return wrong.by_kind[static_cast<std::size_t>(kind)]; };
+    std::printf("%zu of %zu (%s)\n", wrong.wrong, wrong.facing, kinds_text(wrong).c_str());
+    EXPECT_EQ(wrong.wrong, wrong.facing - wrong_before);
+    EXPECT_GT(count(Wrong::unexplained), wrong.facing * 9 / 10);
+    EXPECT_GT(count(Wrong::edge), 0u);
+    EXPECT_EQ(count(Wrong::outline) + count(Wrong::interval) + count(Wrong::grazing) + count(Wrong::open),
+              0u);
+    EXPECT_EQ(std::count(kinds.begin(), kinds.end(), 1 + static_cast<int>(Wrong::unexplained)),
+              static_cast<std::ptrdiff_t>(count(Wrong::unexplained)));
+}
+
+TEST(ShadowTruth, RaysLeaveOutWhatIsBesideTheirStart) {
+    const ExactStage exact;
+    const Mesh& mesh = exact.stage.scene.mesh;
+    const VisiblePoints& points = exact.stage.points;
+    std::size_t dark = 0, left_out = 0;
+    for (std::size_t b = 0; b < points.blocks.size(); ++b) {
+        const SurfaceBlock& s = points.blocks[b];
+        for (int at = 0; at < block_samples; at += 5) {
+            if (exact.stage.truth.truth[points.pixel(b, at)] != Truth::dark) continue;
+            const std::uint32_t face = mesh.face[s.triangle[at]];
+            const Vec3d p =
+                on_plane(mesh.faces[face], points.eye + to_double(Vec3f{s.px[at], s.py[at], s.pz[at]}));
+            ++dark;
+            EXPECT_TRUE(exact.stage.rays.occluded_beyond(p, face, exact.stage.truth.to_light, 0));
+            // Nothing of the scene is as large as that.
+            left_out += exact.stage.rays.occluded_beyond(p, face, exact.stage.truth.to_light, 100) ? 0 : 1;
+        }
+    }
+    EXPECT_GT(dark, 100u);
+    EXPECT_EQ(left_out, dark);
+}
+
 TEST(ShadowBench, QuickRunWritesTablesAndCharts) {
 #if defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "workers are forked, which the thread sanitizer does not follow";
@@ -196,6 +276,20 @@ TEST(ShadowBench, QuickRunWritesTablesAndCharts) {
     for (const char* method : {"dense", "compressed", "Embree"})
         EXPECT_GT(rows[method], 0) << method;
     EXPECT_EQ(hierarchical, 8);  // sides 3 and 5, two sizes, one and two threads
+    // Wrong pixels: three suns; exact, and trees of two sizes.
+    std::ifstream wrong(out / "shadows_wrong.csv");
+    std::map<std::string, int> of_sun;
+    std::getline(wrong, line);
+    EXPECT_NE(line.find(",off,edge,beside,unexplained,problem"), std::string::npos);
+    while (std::getline(wrong, line)) {
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 20) << line;
+        const std::size_t sun = line.find(',', line.find(',') + 1) + 1;
+        ++of_sun[line.substr(sun, line.find(',', line.find(',', sun) + 1) - sun)];
+    }
+    for (const char* sun : {"40", "8", "1"}) {
+        EXPECT_EQ(of_sun[std::string(sun) + ",exact"], 1) << sun;
+        EXPECT_EQ(of_sun[std::string(sun) + ",compressed"], 2) << sun;
+    }
     // The summary: one line per method and timed size, none without its error but the largest tree's.
     std::ifstream report(out / "shadows.md");
     int lines = 0, unknown = 0;
