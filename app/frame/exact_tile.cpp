@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/stopwatch.h"
-#include "raster/depth_tile.h"
 
 namespace obscura {
 
@@ -22,7 +21,6 @@ ExactTile::ExactTile(std::size_t lights)
       lit_(lights * room / 16),
       work_(room) {}
 
-/// Positions are floats; on the plane of its face a point is where it is seen, in doubles.
 void ExactTile::keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block) {
     const std::size_t to = place(k, first_row);
     std::copy_n(block.gx, block_samples, gx_.data() + to);
@@ -30,21 +28,8 @@ void ExactTile::keep_block(const TileScene& scene, int k, int first_row, const S
     std::copy_n(block.gz, block_samples, gz_.data() + to);
     std::copy_n(block.covered, block_groups, covered_.data() + to / 16);
     std::copy_n(block.thin, block_groups, thin_.data() + to / 16);
-    const std::uint32_t* faces = scene.mesh->face.data();
-    const Vec3d eye{scene.rays.eye[0], scene.rays.eye[1], scene.rays.eye[2]};
-    for (std::size_t i = 0; i < block_samples; ++i) {
-        const std::uint32_t triangle = block.triangle[i];
-        face_[to + i] = no_triangle;
-        Vec3d p = eye + to_double(Vec3f{block.px[i], block.py[i], block.pz[i]});
-        if (triangle != no_triangle) {
-            face_[to + i] = faces[triangle];
-            const Plane& plane = scene.mesh->faces[faces[triangle]];
-            p = p - plane.n * (dot(plane.n, p) + plane.d);
-        }
-        px_[to + i] = p.x;
-        py_[to + i] = p.y;
-        pz_[to + i] = p.z;
-    }
+    exact_positions(block, *scene.mesh, {scene.rays.eye[0], scene.rays.eye[1], scene.rays.eye[2]},
+                    px_.data() + to, py_.data() + to, pz_.data() + to, face_.data() + to);
 }
 
 void ExactTile::run(const TileScene& scene, int column, int row, int first, int count, int first_row,

@@ -82,9 +82,10 @@ void aim(const PacketState& state, std::size_t light, const ExactPoints& s, cons
     if (!packet.any) return;
     for (int i = 0; i < 16; ++i) {
         const int at = packet.at[i];
-        const Vec3f p{s.px[at], s.py[at], s.pz[at]}, normal{s.gx[at], s.gy[at], s.gz[at]};
+        const Vec3f p = to_float(Vec3d{s.px[at] - l.eye[0], s.py[at] - l.eye[1], s.pz[at] - l.eye[2]}),
+                    normal{s.gx[at], s.gy[at], s.gz[at]};
         const float reach = (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
-        const float offset = state.offset_m + l.uncertain_m + l.uncertain_per_m * reach;
+        const float offset = state.offset_m + l.snapping_m + l.snapping_per_m * reach;
         const Vec3f from = p + normal * offset;
         Vec3f to{l.to_light[0], l.to_light[1], l.to_light[2]};
         float far = 1e30f;

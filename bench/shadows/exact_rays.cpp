@@ -96,6 +96,21 @@ bool ExactRays::occluded_beyond(Vec3d point, std::uint32_t face, Vec3d to_light,
     return ray.tfar < 0;  // Embree's mark of an occluded ray
 }
 
+Vec3d seen_point(const Mesh& mesh, std::uint32_t triangle, Vec3d p) {
+    const Plane& plane = mesh.faces[mesh.face[triangle]];
+    Vec3d at = on_plane(plane, p), corner[3];
+    for (int k = 0; k < 3; ++k)
+        corner[k] = on_plane(plane, to_double(mesh.positions[mesh.triangles[triangle].v[k]]));
+    const Vec3d normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    // Outside of one edge: to its nearest point, which of two such edges is their corner.
+    for (int k = 0; k < 3; ++k) {
+        const Vec3d from = corner[k], edge = corner[(k + 1) % 3] - from;
+        if (dot(normal, cross(edge, at - from)) >= 0 || dot(edge, edge) == 0) continue;
+        at = from + edge * std::clamp(dot(at - from, edge) / dot(edge, edge), 0.0, 1.0);
+    }
+    return at;
+}
+
 std::vector<Truth> true_shadows(const ExactRays& rays, const Mesh& mesh, const VisiblePoints& points,
                                 Vec3d to_light, const Exec& exec) {
     std::vector<Truth> truth(static_cast<std::size_t>(points.width) * static_cast<std::size_t>(points.height),
@@ -110,7 +125,7 @@ std::vector<Truth> true_shadows(const ExactRays& rays, const Mesh& mesh, const V
             if (!(dot(Vec3f{s.gx[at], s.gy[at], s.gz[at]}, light) > 0)) continue;
             const Vec3d p = points.eye + to_double(Vec3f{s.px[at], s.py[at], s.pz[at]});
             const std::uint32_t face = mesh.face[s.triangle[at]];
-            t = rays.occluded(on_plane(mesh.faces[face], p), face, to_light) ? Truth::dark : Truth::lit;
+            t = rays.occluded(seen_point(mesh, s.triangle[at], p), face, to_light) ? Truth::dark : Truth::lit;
         }
     });
     return truth;

@@ -38,6 +38,10 @@ inline Vec3d on_plane(const Plane& plane, Vec3d p) {
     return p - plane.n * (dot(plane.n, p) + plane.d);
 }
 
+/// The point of a triangle that is nearest to p, of those on its face's plane: a pixel's position is a float,
+/// and up to 1/256 pixel beside the triangle that it shows.
+Vec3d seen_point(const Mesh& mesh, std::uint32_t triangle, Vec3d p);
+
 /// What is so at a pixel.
 enum class Truth : std::uint8_t {
     nothing,  ///< sees no surface

@@ -104,10 +104,10 @@ std::vector<std::vector<std::uint32_t>> asked_samples(const FrameSamples& sample
     parallel_for(samples.tiles, exec, [&](std::size_t t) {
         const std::size_t n = samples.per_tile();
         Buffer<std::int32_t> x(n), y(n);
-        Buffer<float> z(n), uncertain(n);
+        Buffer<float> z(n), rounding(n);
         Buffer<std::uint32_t> point(n), lit(words);
         Buffer<std::uint8_t> view(n);
-        ExactSamples found{0, x.data(), y.data(), z.data(), uncertain.data(), point.data(), view.data()};
+        ExactSamples found{0, x.data(), y.data(), z.data(), rounding.data(), point.data(), view.data()};
         for (std::size_t l = 0; l < lights.size(); ++l) {
             OBSCURA_DISPATCH(exec.isa, exact_locate, samples.points(t), lights[l], found, lit.data());
             for (std::size_t i = 0; i < static_cast<std::size_t>(found.count); ++i)

@@ -7,15 +7,15 @@
 namespace obscura {
 namespace {
 
-/// A block as points that ask; `face` is theirs.
+/// A block as points that ask.
 struct BlockPoints {
+    double px[block_samples], py[block_samples], pz[block_samples];
     std::uint32_t face[block_samples];
     ExactPoints points{};
 
-    BlockPoints(const SurfaceBlock& s, const Mesh& mesh) {
-        for (int i = 0; i < block_samples; ++i)
-            face[i] = is_covered(s, i) ? mesh.face[s.triangle[i]] : 0;
-        points = {block_samples, s.px, s.py, s.pz, s.gx, s.gy, s.gz, face, s.covered, s.thin};
+    BlockPoints(const SurfaceBlock& s, const Mesh& mesh, const ExactLight& light) {
+        exact_positions(s, mesh, {light.eye[0], light.eye[1], light.eye[2]}, px, py, pz, face);
+        points = {block_samples, px, py, pz, s.gx, s.gy, s.gz, face, s.covered, s.thin};
     }
 };
 
@@ -41,13 +41,13 @@ class WrongSample {
         triangle_ = s.triangle[at];
         face_ = scene_.mesh->face[triangle_];
         given_ = scene_.points->eye + to_double(p);
-        place_ = on_plane(plane(), given_);
+        place_ = seen_point(*scene_.mesh, triangle_, given_);
         const std::size_t pixel = scene_.points->pixel(block, at);
         const auto width = static_cast<std::size_t>(scene_.points->width);
         x_ = static_cast<double>(pixel % width) + 0.5;
         y_ = static_cast<double>(pixel / width) + 0.5;
         const float reach = (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
-        uncertain_m_ = static_cast<double>(light_.uncertain_m + light_.uncertain_per_m * reach) + step_m();
+        uncertain_m_ = static_cast<double>(exact_depth_error * reach) + step_m();
     }
 
     bool is_off_its_triangle() const {
@@ -85,7 +85,7 @@ class WrongSample {
             return !scene_.rays->occluded_beyond(place_, face_, scene_.to_light, within) ||
                    !scene_.rays->occluded_beyond(given_, face_, scene_.to_light, within);
         }
-        const BlockPoints points(scene_.points->blocks[block_], *scene_.mesh);
+        const BlockPoints points(scene_.points->blocks[block_], *scene_.mesh, light_);
         const std::uint32_t caster = ref::exact_shadow(points.points, light_, at_).triangle;
         return rays_say_beside(scene_.mesh->faces[scene_.mesh->face[caster]], shown);
     }
@@ -115,7 +115,7 @@ class WrongSample {
 
 BlockLookup exact_lookup(const Mesh& mesh, const ExactLight& light, Isa isa) {
     return [&mesh, light, isa](const SurfaceBlock& surface, float* visibility) {
-        const BlockPoints block(surface, mesh);
+        const BlockPoints block(surface, mesh, light);
         std::uint32_t lit[block_groups];
         ExactCounts counts;
         ExactWork(block_samples).shadows(block.points, light, isa, lit, counts);

@@ -8,22 +8,19 @@
 #include "app/frame/render_frame.h"
 #include "core/error.h"
 #include "core/parallel.h"
-#include "raster/depth_tile.h"
+#include "raster/exact/exact_shadow.h"
 
 namespace obscura {
 namespace {
 
-void keep(const SurfaceBlock& block, const Mesh& mesh, std::size_t to, FrameSamples& samples) {
-    std::copy_n(block.px, block_samples, samples.px.data() + to);
-    std::copy_n(block.py, block_samples, samples.py.data() + to);
-    std::copy_n(block.pz, block_samples, samples.pz.data() + to);
+void keep(const SurfaceBlock& block, const Scene& scene, std::size_t to, FrameSamples& samples) {
     std::copy_n(block.gx, block_samples, samples.gx.data() + to);
     std::copy_n(block.gy, block_samples, samples.gy.data() + to);
     std::copy_n(block.gz, block_samples, samples.gz.data() + to);
     std::copy_n(block.covered, block_groups, samples.covered_words.data() + to / 16);
     std::copy_n(block.thin, block_groups, samples.thin_words.data() + to / 16);
-    for (std::size_t i = 0; i < block_samples; ++i)
-        samples.face[to + i] = block.triangle[i] == no_triangle ? no_triangle : mesh.face[block.triangle[i]];
+    exact_positions(block, scene.mesh, scene.camera.eye, samples.px.data() + to, samples.py.data() + to,
+                    samples.pz.data() + to, samples.face.data() + to);
 }
 
 }  // namespace
@@ -55,8 +52,9 @@ FrameSamples frame_samples(const Scene& scene, const Exec& exec) {
     samples.tiles = static_cast<std::size_t>(columns) *
                     static_cast<std::size_t>((scene.render.height + frame_tile_side - 1) / frame_tile_side);
     const std::size_t all = samples.tiles * samples.per_tile();
-    for (Buffer<float>* buffer :
-         {&samples.px, &samples.py, &samples.pz, &samples.gx, &samples.gy, &samples.gz})
+    for (Buffer<double>* buffer : {&samples.px, &samples.py, &samples.pz})
+        buffer->reset(all);
+    for (Buffer<float>* buffer : {&samples.gx, &samples.gy, &samples.gz})
         buffer->reset(all);
     samples.face.reset(all);
     samples.covered_words.reset(all / 16);
@@ -69,7 +67,7 @@ FrameSamples frame_samples(const Scene& scene, const Exec& exec) {
             walk_blocks(tiles, t, sample, exec.isa, *work, [&](const TileRect&, int first_row) {
                 const std::size_t at =
                     t * samples.per_tile() + static_cast<std::size_t>(FrameSamples::index(k, 0, first_row));
-                keep(work->surface, scene.mesh, at, samples);
+                keep(work->surface, scene, at, samples);
             });
         }
     });

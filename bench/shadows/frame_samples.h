@@ -13,13 +13,14 @@
 namespace obscura {
 
 /// Sample k of pixel (x, y) of tile t stands at t * per_tile() + index(k, x, y); those outside of the picture
-/// count as not there. About 28 bytes a sample.
+/// count as not there. About 40 bytes a sample.
 struct FrameSamples {
     std::size_t tiles = 0;
     int per_pixel = 1;  ///< 1 or 4: as many as exact shadows take together
     std::size_t covered = 0;
     CameraRays rays;
-    Buffer<float> px, py, pz, gx, gy, gz;  ///< as ExactPoints
+    Buffer<double> px, py, pz;  ///< as ExactPoints
+    Buffer<float> gx, gy, gz;
     Buffer<std::uint32_t> face, covered_words, thin_words;
 
     std::size_t per_tile() const {

@@ -4,6 +4,8 @@
 #include <bit>
 #include <utility>
 
+#include "raster/depth_tile.h"
+
 namespace obscura {
 namespace {
 
@@ -85,6 +87,22 @@ void ExactWork::sort_digit(int low) {
     }
     std::swap(key_, other_key_);
     std::swap(order_, other_order_);
+}
+
+void exact_positions(const SurfaceBlock& block, const Mesh& mesh, Vec3d eye, double* px, double* py,
+                     double* pz, std::uint32_t* face) {
+    for (std::size_t i = 0; i < block_samples; ++i) {
+        Vec3d p = eye + to_double(Vec3f{block.px[i], block.py[i], block.pz[i]});
+        face[i] = no_triangle;
+        if (const std::uint32_t triangle = block.triangle[i]; triangle != no_triangle) {
+            face[i] = mesh.face[triangle];
+            const Plane& plane = mesh.faces[face[i]];
+            p = p - plane.n * (dot(plane.n, p) + plane.d);
+        }
+        px[i] = p.x;
+        py[i] = p.y;
+        pz[i] = p.z;
+    }
 }
 
 }  // namespace obscura

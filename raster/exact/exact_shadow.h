@@ -6,7 +6,9 @@
 
 #include "core/buffer.h"
 #include "core/isa.h"
+#include "core/mesh.h"
 #include "raster/exact/exact.h"
+#include "raster/gbuffer.h"
 
 namespace obscura {
 
@@ -31,6 +33,11 @@ class ExactWork {
     Buffer<std::uint32_t> point_, order_, other_order_, key_, other_key_;
     Buffer<std::uint8_t> view_;
 };
+
+/// Positions of a block's samples in doubles, each on the plane of its face, and these faces: block_samples
+/// of each. Positions in the block are floats, relative to the eye.
+void exact_positions(const SurfaceBlock& block, const Mesh& mesh, Vec3d eye, double* px, double* py,
+                     double* pz, std::uint32_t* face);
 
 namespace ref {
 
