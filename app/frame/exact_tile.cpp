@@ -23,6 +23,7 @@ ExactTile::ExactTile(std::size_t lights)
 
 void ExactTile::keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block) {
     const std::size_t to = place(k, first_row);
+    std::copy_n(block.triangle, block_samples, triangle_.data() + to);
     std::copy_n(block.gx, block_samples, gx_.data() + to);
     std::copy_n(block.gy, block_samples, gy_.data() + to);
     std::copy_n(block.gz, block_samples, gz_.data() + to);
@@ -64,6 +65,7 @@ ExactPoints ExactTile::points(int count) const {
     points.gy = gy_.data();
     points.gz = gz_.data();
     points.face = face_.data();
+    points.triangle = triangle_.data();
     points.covered = covered_.data();
     points.thin = thin_.data();
     return points;

@@ -237,7 +237,7 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
         if (!casts_shadows(work.scene.lights[light.scene_light])) continue;
         const LightShadow& shadow = work.cache.shadows[next++];
         if (shadow.light.shadow.method == ShadowMethod::exact) {
-            light.exact = exact_light(shadow.light.light, shadow.exact, tiles.rays);
+            light.exact = exact_light(shadow.light.light, shadow.exact, work.scene.mesh, tiles.rays);
             continue;
         }
         if (shadow.light.shadow.method == ShadowMethod::map) {

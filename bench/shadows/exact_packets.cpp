@@ -48,7 +48,7 @@ struct PacketState {
         for (const SceneLight& light : scene.lights) {
             if (!casts_shadows(light)) continue;
             casters.push_back(build_casters(scene.mesh, light.light, exec, scratch));
-            lights.push_back(exact_light(light.light, casters.back(), samples.rays));
+            lights.push_back(exact_light(light.light, casters.back(), scene.mesh, samples.rays));
             near_m.push_back(static_cast<float>(light.light.near_m));
         }
         asking = asked_samples(samples, lights, exec);

@@ -44,7 +44,7 @@ struct ExactState {
         std::vector<ExactLight> all;
         for (const SceneLight& light : scene.lights) {
             if (casts_shadows(light))
-                all.push_back(exact_light(light.light, casters[all.size()], samples.rays));
+                all.push_back(exact_light(light.light, casters[all.size()], scene.mesh, samples.rays));
         }
         return all;
     }

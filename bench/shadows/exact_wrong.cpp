@@ -15,7 +15,7 @@ struct BlockPoints {
 
     BlockPoints(const SurfaceBlock& s, const Mesh& mesh, const ExactLight& light) {
         exact_positions(s, mesh, {light.eye[0], light.eye[1], light.eye[2]}, px, py, pz, face);
-        points = {block_samples, px, py, pz, s.gx, s.gy, s.gz, face, s.covered, s.thin};
+        points = {block_samples, px, py, pz, s.gx, s.gy, s.gz, face, s.triangle, s.covered, s.thin};
     }
 };
 

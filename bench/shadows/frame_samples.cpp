@@ -14,6 +14,7 @@ namespace obscura {
 namespace {
 
 void keep(const SurfaceBlock& block, const Scene& scene, std::size_t to, FrameSamples& samples) {
+    std::copy_n(block.triangle, block_samples, samples.triangle.data() + to);
     std::copy_n(block.gx, block_samples, samples.gx.data() + to);
     std::copy_n(block.gy, block_samples, samples.gy.data() + to);
     std::copy_n(block.gz, block_samples, samples.gz.data() + to);
@@ -35,6 +36,7 @@ ExactPoints FrameSamples::points(std::size_t tile) const {
             gy.data() + first,
             gz.data() + first,
             face.data() + first,
+            triangle.data() + first,
             covered_words.data() + first / 16,
             thin_words.data() + first / 16};
 }
@@ -57,6 +59,7 @@ FrameSamples frame_samples(const Scene& scene, const Exec& exec) {
     for (Buffer<float>* buffer : {&samples.gx, &samples.gy, &samples.gz})
         buffer->reset(all);
     samples.face.reset(all);
+    samples.triangle.reset(all);
     samples.covered_words.reset(all / 16);
     samples.thin_words.reset(all / 16);
     std::fill_n(samples.covered_words.data(), all / 16, 0u);

@@ -21,7 +21,7 @@ struct FrameSamples {
     CameraRays rays;
     Buffer<double> px, py, pz;  ///< as ExactPoints
     Buffer<float> gx, gy, gz;
-    Buffer<std::uint32_t> face, covered_words, thin_words;
+    Buffer<std::uint32_t> face, triangle, covered_words, thin_words;
 
     std::size_t per_tile() const {
         return static_cast<std::size_t>(per_pixel) * frame_tile_side * frame_tile_side;

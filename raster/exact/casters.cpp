@@ -253,7 +253,8 @@ std::int64_t casters_sorting_bytes(std::int64_t triangles) {
     return triangles * 2 * std::int64_t{sizeof(std::uint64_t)};
 }
 
-ExactLight exact_light(const Light& light, std::span<const Casters> casters, const CameraRays& rays) {
+ExactLight exact_light(const Light& light, std::span<const Casters> casters, const Mesh& mesh,
+                       const CameraRays& rays) {
     CHECK(casters.size() == 1 || casters.size() == 6);
     ExactLight e;
     e.views = static_cast<std::int32_t>(casters.size());
@@ -277,6 +278,8 @@ ExactLight exact_light(const Light& light, std::span<const Casters> casters, con
     const Vec3d eye{rays.eye[0], rays.eye[1], rays.eye[2]};
     set(e.position, to_float(light.position - eye));
     std::copy_n(rays.eye, 3, e.eye);
+    e.positions = mesh.positions.empty() ? nullptr : &mesh.positions[0].x;
+    e.corners = mesh.triangles.empty() ? nullptr : &mesh.triangles[0].v[0];
     // A pixel's side, everywhere or at distance 1.
     const auto side = [](const double(&x)[3], const double(&y)[3]) {
         return std::max(length(Vec3d{x[0], x[1], x[2]}), length(Vec3d{y[0], y[1], y[2]})) / subtexel_one;

@@ -36,7 +36,9 @@ std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const E
 std::int64_t casters_bytes(std::int64_t triangles);
 std::int64_t casters_sorting_bytes(std::int64_t triangles);
 
-/// For kernels; `casters` must outlive it. `rays` are the camera's, of the picture that asks.
-ExactLight exact_light(const Light& light, std::span<const Casters> casters, const CameraRays& rays);
+/// For kernels; `casters` and `mesh`, whose points will ask, must outlive it. `rays` are the camera's, of the
+/// picture that asks.
+ExactLight exact_light(const Light& light, std::span<const Casters> casters, const Mesh& mesh,
+                       const CameraRays& rays);
 
 }  // namespace obscura

@@ -20,11 +20,12 @@
 // doubled faces and planes that fight for one pixel shade nothing of each other.
 //
 // The camera sees triangles whose corners are snapped to 1/256 pixel, so a sample may lie that far beside the
-// triangle it shows, on its plane, and there behind another that meets it. What seems to lie behind a plane
-// of which camera and light see the same side, but no farther than 1/256 pixel along the sample's own plane
-// takes it, lies in front of it, for the camera sees it there. (Of planes between the camera and the light
-// nothing of the kind is known: no light gets into a closed room along its edges.)
+// triangle it shows, on its plane, and there behind another that meets it. What lies outside of its own
+// triangle, and behind a plane of which camera and light see the same side no farther than 1/256 pixel along
+// its own plane takes it, lies in front of it, for the camera sees it there. (Of planes between the camera
+// and the light nothing of the kind is known: no light gets into a closed room along its edges.)
 
+#include <cstddef>
 #include <cstdint>
 
 #include "raster/record.h"
@@ -86,17 +87,20 @@ struct ExactLight {
     double viewer[4] = {0, 0, 0, 1};
     /// 1/256 pixel at p, relative to the eye, metres: snapping_m + snapping_per_m (|x| + |y| + |z|).
     float snapping_m = 0, snapping_per_m = 0;
+    const float* positions = nullptr;        ///< of the mesh, x y z each,
+    const std::uint32_t* corners = nullptr;  ///< and three of them per triangle
 };
 
 /// Points that a camera sees, all of them with one eye: arrays of `count`, a multiple of sixteen. Bit i of a
 /// mask word is point 16 g + i.
 struct ExactPoints {
     std::int32_t count = 0;
-    const double *px, *py, *pz;    ///< world space, metres, on the plane of their face
-    const float *gx, *gy, *gz;     ///< geometric normal, turned to the viewer
-    const std::uint32_t* face;     ///< planar face of each (Mesh::face)
-    const std::uint32_t* covered;  ///< points that there are
-    const std::uint32_t* thin;     ///< on surfaces that let light through, which have no dark side
+    const double *px, *py, *pz;     ///< world space, metres, on the plane of their face
+    const float *gx, *gy, *gz;      ///< geometric normal, turned to the viewer
+    const std::uint32_t* face;      ///< planar face of each (Mesh::face),
+    const std::uint32_t* triangle;  ///< and triangle
+    const std::uint32_t* covered;   ///< points that there are
+    const std::uint32_t* thin;      ///< on surfaces that let light through, which have no dark side
 };
 
 /// Points on the grids of a light's views, and those alone that must be looked up: arrays with room for all.
@@ -108,6 +112,35 @@ struct ExactSamples {
     std::uint32_t* point;  ///< which
     std::uint8_t* view;
 };
+
+/// Whether p lies on its triangle, of those on its plane: inside of all edges.
+[[gnu::always_inline]] inline bool is_on_triangle(const ExactLight& light, std::uint32_t triangle,
+                                                  const double (&p)[3]) {
+    double c[3][3], e[3][3];
+    for (int k = 0; k < 3; ++k) {
+        const float* at =
+            light.positions +
+            3 * static_cast<std::size_t>(
+                    light.corners[3 * static_cast<std::size_t>(triangle) + static_cast<std::size_t>(k)]);
+        for (int a = 0; a < 3; ++a)
+            c[k][a] = static_cast<double>(at[a]);
+    }
+    for (int k = 0; k < 3; ++k) {
+        for (int a = 0; a < 3; ++a)
+            e[k][a] = c[k == 2 ? 0 : k + 1][a] - c[k][a];
+    }
+    const double n[3] = {e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2],
+                         e[0][0] * e[1][1] - e[0][1] * e[1][0]};
+    bool inside = true;
+    for (int k = 0; k < 3; ++k) {
+        const double d[3] = {p[0] - c[k][0], p[1] - c[k][1], p[2] - c[k][2]};
+        const double side =
+            (n[0] * (e[k][1] * d[2] - e[k][2] * d[1]) + n[1] * (e[k][2] * d[0] - e[k][0] * d[2])) +
+            n[2] * (e[k][0] * d[1] - e[k][1] * d[0]);
+        inside = inside && side >= 0;
+    }
+    return inside;
+}
 
 /// How far behind the plane of a triangle with unit normal n a point may seem to lie that 1/256 pixel beside
 /// its place lies before it: p relative to the eye, g the unit normal of its own plane, turned to the viewer.

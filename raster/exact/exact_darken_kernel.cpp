@@ -191,6 +191,8 @@ OBSCURA_INLINE std::uint32_t snapped(const CasterTriangle& t, const ExactPoints&
     for (; dark != 0; dark &= dark - 1) {
         const int k = __builtin_ctz(dark);
         const std::int32_t at = s.point[k];
+        const double world[3] = {s.px[k], s.py[k], s.pz[k]};
+        if (is_on_triangle(light, points.triangle[at], world)) continue;
         const float p[3] = {static_cast<float>(s.px[k] - light.eye[0]),
                             static_cast<float>(s.py[k] - light.eye[1]),
                             static_cast<float>(s.pz[k] - light.eye[2])};

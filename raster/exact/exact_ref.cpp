@@ -47,7 +47,8 @@ bool is_seen(const CasterTriangle& t, const double (&viewer)[4]) {
 /// Whether point `at` seems to be behind the plane only for being snapped beside its place.
 bool is_snapped(const CasterTriangle& t, const ExactLight& light, const ExactPoints& points, int at,
                 double behind, float rounding) {
-    if (!is_seen(t, light.viewer)) return false;
+    const double world[3] = {points.px[at], points.py[at], points.pz[at]};
+    if (!is_seen(t, light.viewer) || is_on_triangle(light, points.triangle[at], world)) return false;
     const float p[3] = {static_cast<float>(points.px[at] - light.eye[0]),
                         static_cast<float>(points.py[at] - light.eye[1]),
                         static_cast<float>(points.pz[at] - light.eye[2])};

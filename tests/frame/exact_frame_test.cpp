@@ -117,7 +117,7 @@ TEST(ExactFrame, ATreeOfWhatStandsAndSamplesOfWhatMovesAreOneAnswer) {
     const Light& light = scene.lights[0].light;
     TriangleSetup scratch;
     const auto everything_casts = build_casters(scene.mesh, light, exec, scratch);
-    tiles.lights[0].exact = exact_light(light, everything_casts, tiles.rays);
+    tiles.lights[0].exact = exact_light(light, everything_casts, scene.mesh, tiles.rays);
     const std::vector<float> alone = visibility_of(tiles);
 
     const Mesh still = casters_of(scene.mesh, false), moving = casters_of(scene.mesh, true);
@@ -133,7 +133,7 @@ TEST(ExactFrame, ATreeOfWhatStandsAndSamplesOfWhatMovesAreOneAnswer) {
     const auto ball = build_casters(moving, light, exec, scratch);
     EXPECT_EQ(ball[0].count + build_casters(still, light, exec, scratch)[0].count, everything_casts[0].count);
     tiles.lights[0].pcf = pcf_light(tree_light, std::span<const ShadowTree>(shadow.trees), scene.camera.eye);
-    tiles.lights[0].exact = exact_light(light, ball, tiles.rays);
+    tiles.lights[0].exact = exact_light(light, ball, scene.mesh, tiles.rays);
     const std::vector<float> both = visibility_of(tiles);
 
     int dark = 0, different = 0;

@@ -60,18 +60,18 @@ class BruteForce {
     }
 
     /// 1 lit, 0 dark, -1 closer to the limit than quadruple precision of the planes' doubles can tell.
-    int lit(Vec3d p, Vec3d g, const ref::ExactShadow& s, std::uint32_t face) const {
+    int lit(Vec3d p, Vec3d g, const ref::ExactShadow& s, std::uint32_t own) const {
         const View& view = casters_[static_cast<std::size_t>(s.view)].view;
         bool unsure = false;
         for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-            if (mesh_.face[t] == face) continue;
+            if (mesh_.face[t] == mesh_.face[own]) continue;
             const Snapped& on_grid = snapped_[static_cast<std::size_t>(s.view)][t];
             const bool whole = on_grid.corners == 3;
             const int covered =
                 whole ? oracle::covers(on_grid.x, on_grid.y, s.x, s.y) : meets_clipped(view, t, p);
             unsure |= covered < 0;
             if (covered <= 0) continue;
-            const int side = behind(t, p, g, s);
+            const int side = behind(t, own, p, g, s);
             if (side < 0) unsure = true;
             if (side <= 0) continue;
             // Nearer to the light than the triangle's nearest corner: only where its plane is extrapolated.
@@ -144,7 +144,7 @@ class BruteForce {
     }
     /// Whether p lies behind the triangle's plane, seen from the light, by more than `uncertain`: 1 yes, 0
     /// no, -1 too close to tell.
-    int behind(std::size_t t, Vec3d p, Vec3d g, const ref::ExactShadow& s) const {
+    int behind(std::size_t t, std::size_t own, Vec3d p, Vec3d g, const ref::ExactShadow& s) const {
         const Triangle& tri = mesh_.triangles[t];
         const Vec3q a = quad(to_double(mesh_.positions[tri.v[0]])),
                     b = quad(to_double(mesh_.positions[tri.v[1]])),
@@ -170,7 +170,10 @@ class BruteForce {
         const Quad behind = -signed_height - static_cast<double>(s.rounding_m);
         if ((behind < 0 ? -behind : behind) <= doubt) return -1;
         if (behind < 0) return 0;
-        // Camera and light see the same side: 1/256 pixel along the point's own plane, across the other.
+        const int on = on_triangle(own, p);
+        if (on > 0) return 1;
+        // Beside its triangle, and camera and light see the same side: 1/256 pixel along the point's own
+        // plane, across the other.
         const Quad eye_height = dot(n, quad(eye_) - a) / length;
         if ((eye_height > 0) != (towards > 0))
             return (eye_height < 0 ? -eye_height : eye_height) <= doubt ? -1 : 1;
@@ -181,7 +184,23 @@ class BruteForce {
         const Quad snap = snapping_ * reach / cosine * square_root(dot(sine, sine)) / length;
         const Quad beyond = behind - snap;
         if ((beyond < 0 ? -beyond : beyond) <= doubt + 1e-4 * snap + 1e-6 * snapping_ * reach) return -1;
-        return beyond > 0 ? 1 : 0;
+        if (beyond > 0) return 1;
+        return on < 0 ? -1 : 0;
+    }
+    /// Whether p is on the triangle, as far as edges go: 1 yes, 0 no, -1 too close to tell.
+    int on_triangle(std::size_t t, Vec3d p) const {
+        const Triangle& tri = mesh_.triangles[t];
+        Vec3q c[3];
+        for (int k = 0; k < 3; ++k)
+            c[k] = quad(to_double(mesh_.positions[tri.v[k]]));
+        const Vec3q n = cross(c[1] - c[0], c[2] - c[0]);
+        bool inside = true, unsure = false;
+        for (int k = 0; k < 3; ++k) {
+            const Quad side = dot(n, cross(c[(k + 1) % 3] - c[k], quad(p) - c[k])) / dot(n, n);
+            unsure = unsure || (side < 0 ? -side : side) < 1e-9;
+            inside = inside && side > 0;
+        }
+        return unsure ? -1 : inside;
     }
     static double length_of(Vec3d v) { return std::sqrt(dot(v, v)); }
 

@@ -28,15 +28,16 @@ using namespace exact_scenes;
 struct Points {
     std::vector<double> p[3];
     std::vector<float> g[3];
-    std::vector<std::uint32_t> face, covered, thin;
+    std::vector<std::uint32_t> face, triangle, covered, thin;
 
-    void add(Vec3d at, Vec3f normal, std::uint32_t face_id, bool is_thin) {
+    void add(Vec3d at, Vec3f normal, std::uint32_t face_id, std::uint32_t triangle_id, bool is_thin) {
         const std::size_t i = face.size();
         for (int k = 0; k < 3; ++k) {
             p[k].push_back(k == 0 ? at.x : k == 1 ? at.y : at.z);
             g[k].push_back(k == 0 ? normal.x : k == 1 ? normal.y : normal.z);
         }
         face.push_back(face_id);
+        triangle.push_back(triangle_id);
         if (i % 16 == 0) {
             covered.push_back(0);
             thin.push_back(0);
@@ -51,6 +52,7 @@ struct Points {
                 g[k].push_back(0);
             }
             face.push_back(0);
+            triangle.push_back(0);
         }
     }
     ExactPoints view() const {
@@ -62,6 +64,7 @@ struct Points {
                 g[1].data(),
                 g[2].data(),
                 face.data(),
+                triangle.data(),
                 covered.data(),
                 thin.data()};
     }
@@ -105,7 +108,7 @@ Points draw_points(Source& source, const Mesh& mesh, Vec3d eye, int count) {
         const Vec3d near = eye + to_double(seen), p = near - plane.n * (dot(plane.n, near) + plane.d);
         Vec3f n = to_float(plane.n);
         if (dot(n, seen) > 0) n = -n;
-        points.add(p, n, mesh.face[t], source.below(8) == 0);
+        points.add(p, n, mesh.face[t], static_cast<std::uint32_t>(t), source.below(8) == 0);
     }
     points.fill_up();
     return points;
@@ -130,7 +133,7 @@ void compare(unsigned seed, int count, Outcome& sum) {
     const auto casters = build_casters(mesh, light, exec, scratch);
     const double pixel = std::pow(10, source.between(-4, -2));
     const CameraRays rays = rays_from(eye, pixel);
-    const ExactLight exact = exact_light(light, casters, rays);
+    const ExactLight exact = exact_light(light, casters, mesh, rays);
     const Points drawn = draw_points(source, mesh, eye, count);
     const ExactPoints points = drawn.view();
 
@@ -166,7 +169,7 @@ void compare(unsigned seed, int count, Outcome& sum) {
             ++sum.lit;
             continue;
         }
-        const int truth = brute.lit(p, g, s, drawn.face[at]);
+        const int truth = brute.lit(p, g, s, drawn.triangle[at]);
         if (truth < 0) {
             ++sum.unsure;
             continue;
