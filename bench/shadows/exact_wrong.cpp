@@ -46,7 +46,7 @@ class WrongSample {
         const auto width = static_cast<std::size_t>(scene_.points->width);
         x_ = static_cast<double>(pixel % width) + 0.5;
         y_ = static_cast<double>(pixel / width) + 0.5;
-        const float reach = (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
+        const float reach = std::fabs(dot(p, Vec3f{s.gx[at], s.gy[at], s.gz[at]}));
         uncertain_m_ = static_cast<double>(exact_depth_error * reach) + step_m();
     }
 

@@ -14,10 +14,12 @@
 //      nearer to the light than the triangle's nearest corner;
 //   3. it is not of the sample's own planar face.
 //
-// What is uncertain of a sample. Its position is put back onto its face's plane in doubles, and still came
-// from a depth that is a float: what lies within 2^-22 of the distance of it is one surface for the camera,
-// and so it is here; its place on the light's grid is a step off. Touching solids, sheets back to back,
-// doubled faces and planes that fight for one pixel shade nothing of each other.
+// What is uncertain of a sample. Its position is put back onto its face's plane in doubles, but that it is
+// this face which the camera sees hung on depths that are floats. Depths grow in proportion to the eye's
+// height above parallel planes, so planes nearer to each other than 2^-23 of that height may have one depth:
+// they are one surface for the camera, and so they are here. And its place on the light's grid is a step off.
+// Touching solids, sheets back to back, doubled faces and planes that fight for one pixel shade nothing of
+// each other.
 //
 // The camera sees triangles whose corners are snapped to 1/256 pixel, so a sample may lie that far beside the
 // triangle it shows, on its plane, and there behind another that meets it. What lies outside of its own
@@ -36,8 +38,9 @@ namespace obscura {
 /// 2^28 steps.
 constexpr int exact_view_texels = 1 << 20;
 
-/// Of |x| + |y| + |z|, relative to the eye: how far apart surfaces are that one depth of the camera may mean.
-constexpr float exact_depth_error = 0x1p-22f;
+/// Of the eye's height above a plane (orthographic: of |x| + |y| + |z| from the eye): how far apart planes
+/// are that one depth of the camera may mean.
+constexpr float exact_depth_error = 0x1p-23f;
 
 /// Planes that the camera sees at a smaller cosine are taken as if at this.
 constexpr float exact_least_cosine = 1.0f / 16.0f;

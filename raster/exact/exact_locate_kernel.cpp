@@ -28,8 +28,8 @@ struct Located {
     std::uint32_t looks;
 };
 
-OBSCURA_INLINE Located located(const ExactView& view, const F64& x, const F64& y, const F64& z,
-                               const Vec3x16& p) {
+OBSCURA_INLINE Located located(const ExactLight& light, const ExactView& view, const F64& x, const F64& y,
+                               const F64& z, const Vec3x16& p, const Vec3x16& g) {
     Located to;
     F64 w = splat(1.0);
     to.looks = 0xffffu;
@@ -48,7 +48,7 @@ OBSCURA_INLINE Located located(const ExactView& view, const F64& x, const F64& y
     to.looks &= bits(less_equal(zero, to.x) & less_equal(to.x, last) & less_equal(zero, to.y) &
                      less_equal(to.y, last));
     to.z = to_f32(row(view.to_map[2], x, y, z) * inv);
-    const F32 reach = (abs(p.x) + abs(p.y)) + abs(p.z);
+    const F32 reach = light.viewer[3] != 0 ? abs(dot(g, p)) : (abs(p.x) + abs(p.y)) + abs(p.z);
     to.rounding = splat(exact_depth_error) * reach + splat(static_cast<float>(view.step_m)) * to_f32(w);
     return to;
 }
@@ -95,7 +95,7 @@ void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSampl
         for (std::int32_t v = 0; v < light.views; ++v) {
             const std::uint32_t of_view = asking & bits(equal(face, splat(v)));
             if (of_view == 0 || light.view[v].levels == 0) continue;
-            const Located place = located(light.view[v], x, y, z, p);
+            const Located place = located(light, light.view[v], x, y, z, p, g);
             append(place, of_view & place.looks, at, v, samples);
         }
     }

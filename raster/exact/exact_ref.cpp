@@ -140,7 +140,8 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
     place.y = on_grid(1);
     q.looks = q.looks && place.x >= 0 && place.x <= view.steps && place.y >= 0 && place.y <= view.steps;
     place.z = static_cast<float>(row(view.to_map[2], place.p) * inv);
-    const float reach = (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
+    const float reach =
+        light.viewer[3] != 0 ? std::fabs(dot(g, p)) : (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
     place.rounding = exact_depth_error * reach + static_cast<float>(view.step_m) * static_cast<float>(w);
     place.face = points.face[at];
     return q;
