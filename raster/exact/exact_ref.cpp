@@ -215,4 +215,10 @@ ExactShadow exact_shadow(const ExactPoints& points, const ExactLight& light, int
     return shadow;
 }
 
+bool exact_darkens(const ExactPoints& points, const ExactLight& light, int at, std::size_t i) {
+    const Question q = question(points, light, at);
+    const ExactView& view = light.view[q.view];
+    return q.looks && darkens(view.triangles[i], view.boxes[0][i / 16].z_low[i % 16], light, points, q.place);
+}
+
 }  // namespace obscura::ref

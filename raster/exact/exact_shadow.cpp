@@ -45,13 +45,13 @@ void ExactWork::shadows(const ExactPoints& points, const ExactLight& light, Isa 
                         ExactCounts& counts) {
     OBSCURA_DISPATCH(isa, exact_locate, points, light, samples_, lit);
     if (samples_.count == 0) return;
-    order(light.views);
+    sort_samples(light.views);
     OBSCURA_DISPATCH(isa, exact_darken, points, light, samples_, order_.data(), lit, counts);
 }
 
 /// View by view along a Morton curve of square cells, of which the longer side of what the samples span has
 /// up to 2^cell_bits.
-void ExactWork::order(int views) {
+void ExactWork::sort_samples(int views) {
     const auto n = static_cast<std::size_t>(samples_.count);
     const auto [x_low, x_high] = std::minmax_element(x_.data(), x_.data() + n);
     const auto [y_low, y_high] = std::minmax_element(y_.data(), y_.data() + n);

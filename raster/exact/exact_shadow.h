@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/buffer.h"
 #include "core/isa.h"
@@ -23,8 +24,14 @@ class ExactWork {
     void shadows(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
                  ExactCounts& counts);
 
+    /// Of the last call: what was looked up, and in which order, sixteen neighbours of it together.
+    const ExactSamples& samples() const { return samples_; }
+    std::span<const std::uint32_t> order() const {
+        return {order_.data(), static_cast<std::size_t>(samples_.count)};
+    }
+
   private:
-    void order(int views);
+    void sort_samples(int views);
     void sort_digit(int low);
 
     ExactSamples samples_;
@@ -56,6 +63,9 @@ struct ExactShadow {
     double behind_m = 0;         ///< how far the point lies behind its plane, at right angles to that
 };
 ExactShadow exact_shadow(const ExactPoints& points, const ExactLight& light, int at);
+
+/// Whether triangle i of the point's view darkens it.
+bool exact_darkens(const ExactPoints& points, const ExactLight& light, int at, std::size_t i);
 
 }  // namespace ref
 }  // namespace obscura
