@@ -223,7 +223,7 @@ OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, float z_low, cons
 /// a bunch.
 struct Nearby {
     static constexpr int room = 256;
-    CasterBoxes boxes[room / 16];
+    CasterBoxes boxes[room / 16], around;  ///< around: of each sixteen boxes
     alignas(64) std::int32_t x[3][room], y[3][room];
     alignas(64) float n[3][room], d[room];  ///< the plane, relative to the eye
     std::uint32_t triangle[room];
@@ -238,6 +238,12 @@ struct Nearby {
         to.y_low[i] = from.y_low[k];
         to.y_high[i] = from.y_high[k];
         to.z_low[i] = from.z_low[k];
+        const int g = count / 16;
+        around.x_low[g] = i == 0 ? to.x_low[i] : least(around.x_low[g], to.x_low[i]);
+        around.x_high[g] = i == 0 ? to.x_high[i] : most(around.x_high[g], to.x_high[i]);
+        around.y_low[g] = i == 0 ? to.y_low[i] : least(around.y_low[g], to.y_low[i]);
+        around.y_high[g] = i == 0 ? to.y_high[i] : most(around.y_high[g], to.y_high[i]);
+        around.z_low[g] = i == 0 ? to.z_low[i] : least(around.z_low[g], to.z_low[i]);
         for (int c = 0; c < 3; ++c) {
             x[c][count] = t.x[c];
             y[c][count] = t.y[c];
@@ -252,6 +258,10 @@ struct Nearby {
         for (int i = count; i % 16 != 0; ++i) {
             boxes[i / 16].x_low[i % 16] = 0x7fffffff;
             boxes[i / 16].x_high[i % 16] = -0x7fffffff;
+        }
+        for (int g = (count + 15) / 16; g < 16; ++g) {
+            around.x_low[g] = 0x7fffffff;
+            around.x_high[g] = -0x7fffffff;
         }
     }
 
@@ -294,41 +304,57 @@ OBSCURA_INLINE Extent united(const Extent& a, const Extent& b) {
             most(a.y_high, b.y_high), most(a.z_high, b.z_high)};
 }
 
-/// Darkens the open lanes of `n` bunches, which are of one view.
-void darken(const ExactPoints& points, const ExactLight& light, const ExactView& view, Bunch* bunch, int n,
-            ExactCounts& counts) {
+/// Collects what is near the bunches; false when there is no room for all of it.
+bool collect(const ExactLight& light, const ExactView& view, const Bunch* bunch, int n, Nearby& nearby,
+             ExactCounts& counts) {
     Extent all = bunch[0].extent;
     for (int b = 1; b < n; ++b)
         all = united(all, bunch[b].extent);
-    Nearby nearby;
-    bool complete = true;
+    nearby.count = 0;
+    bool fits = true;
     walk(view, all, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
-        complete = nearby.count < Nearby::room;
-        if (complete) {
+        fits = nearby.count < Nearby::room;
+        if (fits) {
             const std::uint32_t index = first + static_cast<std::uint32_t>(k);
             nearby.add(view.triangles[index], light, boxes, index, k);
         }
-        return complete;
+        return fits;
     });
     nearby.close();
+    return fits;
+}
+
+/// Darkens the open lanes of `n` bunches, which are of one view.
+void darken(const ExactPoints& points, const ExactLight& light, const ExactView& view, Bunch* bunch, int n,
+            Nearby& nearby, ExactCounts& counts) {
+    // Halves, until what is near has room.
+    while (n > 1 && !collect(light, view, bunch, n, nearby, counts)) {
+        darken(points, light, view, bunch, n / 2, nearby, counts);
+        bunch += n / 2;
+        n -= n / 2;
+    }
+    const auto test = [&](Bunch& s, std::uint32_t triangle, float z_low) {
+        ++counts.triangles;
+        s.open &= ~darkened(view.triangles[triangle], z_low, points, light, s);
+        return s.open != 0;
+    };
+    if (n == 1) {
+        Bunch& s = bunch[0];
+        walk(view, s.extent, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
+            return test(s, first + static_cast<std::uint32_t>(k), boxes.z_low[k]);
+        });
+        return;
+    }
     for (int b = 0; b < n; ++b) {
         Bunch& s = bunch[b];
-        const auto test = [&](std::uint32_t triangle, float z_low) {
-            ++counts.triangles;
-            s.open &= ~darkened(view.triangles[triangle], z_low, points, light, s);
-            return s.open != 0;
-        };
-        if (!complete) {
-            walk(view, s.extent, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
-                return test(first + static_cast<std::uint32_t>(k), boxes.z_low[k]);
-            });
-            continue;
-        }
-        for (int g = 0; g < nearby.count && s.open != 0; g += 16) {
+        ++counts.groups;
+        for (std::uint32_t near = overlapping(nearby.around, s.extent); near != 0 && s.open != 0;
+             near &= near - 1) {
+            const int g = 16 * __builtin_ctz(near);
             ++counts.groups;
             for (std::uint32_t may = nearby.may_darken(g, s); may != 0; may &= may - 1) {
                 const int k = __builtin_ctz(may);
-                if (!test(nearby.triangle[g + k], nearby.boxes[g / 16].z_low[k])) break;
+                if (!test(s, nearby.triangle[g + k], nearby.boxes[g / 16].z_low[k])) break;
             }
         }
     }
@@ -339,6 +365,7 @@ void darken(const ExactPoints& points, const ExactLight& light, const ExactView&
 void exact_darken(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples,
                   const std::uint32_t* order, std::uint32_t* lit, ExactCounts& counts) noexcept {
     Bunch bunch[bunches];
+    Nearby nearby;
     std::int32_t next = 0;
     while (next < samples.count) {
         const std::uint8_t view = samples.view[order[next]];
@@ -352,7 +379,7 @@ void exact_darken(const ExactPoints& points, const ExactLight& light, const Exac
             gather_bunch(points, light, samples, order + next, members, bunch[n]);
             next += members;
         }
-        darken(points, light, light.view[view], bunch, n, counts);
+        darken(points, light, light.view[view], bunch, n, nearby, counts);
         for (std::int32_t i = first; i < next; ++i) {
             const std::int32_t at = i - first;
             if ((bunch[at / lanes].open >> (at % lanes) & 1u) != 0) continue;
