@@ -15,38 +15,57 @@ ExactTile::ExactTile(std::size_t lights)
       py_(room),
       pz_(room),
       triangle_(room),
+      of_point_(room),
       face_(room),
       covered_(room / 16),
       thin_(room / 16),
       lit_(lights * room / 16),
       work_(room) {}
 
-void ExactTile::keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block) {
-    const std::size_t to = place(k, first_row);
-    std::copy_n(block.triangle, block_samples, triangle_.data() + to);
-    std::copy_n(block.gx, block_samples, gx_.data() + to);
-    std::copy_n(block.gy, block_samples, gy_.data() + to);
-    std::copy_n(block.gz, block_samples, gz_.data() + to);
-    std::copy_n(block.covered, block_groups, covered_.data() + to / 16);
-    std::copy_n(block.thin, block_groups, thin_.data() + to / 16);
-    exact_positions(block, *scene.mesh, {scene.rays.eye[0], scene.rays.eye[1], scene.rays.eye[2]},
-                    px_.data() + to, py_.data() + to, pz_.data() + to, face_.data() + to);
+void ExactTile::keep_block(const TileScene& scene, int k, int count, int first_row,
+                           const SurfaceBlock& block) {
+    double px[block_samples], py[block_samples], pz[block_samples];
+    std::uint32_t face[block_samples];
+    exact_positions(block, *scene.mesh, {scene.rays.eye[0], scene.rays.eye[1], scene.rays.eye[2]}, px, py, pz,
+                    face);
+    for (int i = 0; i < block_samples; ++i) {
+        const std::uint32_t bit = block.covered[i / 16] >> (i % 16) & 1u;
+        if (bit == 0) continue;
+        const auto to = static_cast<std::size_t>(
+            exact_point_index(k, count, i % frame_tile_side, first_row + i / frame_tile_side));
+        px_[to] = px[i];
+        py_[to] = py[i];
+        pz_[to] = pz[i];
+        gx_[to] = block.gx[i];
+        gy_[to] = block.gy[i];
+        gz_[to] = block.gz[i];
+        face_[to] = face[i];
+        of_point_[to] = block.triangle[i];
+        covered_[to / 16] |= 1u << (to % 16);
+        thin_[to / 16] |= (block.thin[i / 16] >> (i % 16) & 1u) << (to % 16);
+    }
+}
+
+void ExactTile::begin(int count) {
+    count_ = count;
+    std::fill_n(covered_.data(), points_of(count) / 16, 0u);
+    std::fill_n(thin_.data(), points_of(count) / 16, 0u);
 }
 
 void ExactTile::run(const TileScene& scene, int column, int row, int first, int count, int first_row,
                     int end_row, Isa isa, TileWork& work) {
+    begin(count);
     for (int k = 0; k < count; ++k) {
         const TileRect tile = tile_visibility(scene, column, row,
                                               scene.pattern[static_cast<std::size_t>(first + k)], isa, work);
-        std::copy_n(work.depth, tile_samples, depth_.data() + place(k, 0));
-        std::copy_n(work.triangle, tile_samples, triangle_.data() + place(k, 0));
-        std::fill_n(covered_.data() + place(k, 0) / 16, tile_samples / 16, 0u);
+        std::copy_n(work.depth, tile_samples, depth_.data() + points_of(k));
+        std::copy_n(work.triangle, tile_samples, triangle_.data() + points_of(k));
         for (int block = first_row; block < end_row; block += block_rows) {
             block_geometry(scene, tile, block, isa, work);
-            keep_block(scene, k, block, work.surface);
+            keep_block(scene, k, count, block, work.surface);
         }
     }
-    const ExactPoints all = points(count);
+    const ExactPoints all = points();
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         if (!scene.lights[l].exact) continue;
         const Stopwatch watch;
@@ -55,31 +74,30 @@ void ExactTile::run(const TileScene& scene, int column, int row, int first, int 
     }
 }
 
-ExactPoints ExactTile::points(int count) const {
-    ExactPoints points{};
-    points.count = static_cast<std::int32_t>(place(count, 0));
-    points.px = px_.data();
-    points.py = py_.data();
-    points.pz = pz_.data();
-    points.gx = gx_.data();
-    points.gy = gy_.data();
-    points.gz = gz_.data();
-    points.face = face_.data();
-    points.triangle = triangle_.data();
-    points.covered = covered_.data();
-    points.thin = thin_.data();
-    return points;
+ExactPoints ExactTile::points() const {
+    return {static_cast<std::int32_t>(points_of(count_)),
+            px_.data(),
+            py_.data(),
+            pz_.data(),
+            gx_.data(),
+            gy_.data(),
+            gz_.data(),
+            face_.data(),
+            of_point_.data(),
+            covered_.data(),
+            thin_.data()};
 }
 
 void ExactTile::restore(int k, TileWork& work) const {
-    std::copy_n(depth_.data() + place(k, 0), tile_samples, work.depth);
-    std::copy_n(triangle_.data() + place(k, 0), tile_samples, work.triangle);
+    std::copy_n(depth_.data() + points_of(k), tile_samples, work.depth);
+    std::copy_n(triangle_.data() + points_of(k), tile_samples, work.triangle);
 }
 
 void ExactTile::darken(std::size_t light, int k, int first_row, float* visibility) const {
-    const std::uint32_t* lit = lit_.data() + light * (room / 16) + place(k, first_row) / 16;
+    const std::uint32_t* lit = lit_.data() + light * (room / 16);
     for (int i = 0; i < block_samples; ++i) {
-        const bool is_lit = (lit[i / 16] >> (i % 16) & 1u) != 0;
+        const int at = exact_point_index(k, count_, i % frame_tile_side, first_row + i / frame_tile_side);
+        const bool is_lit = (lit[at / 16] >> (at % 16) & 1u) != 0;
         visibility[i] = is_lit ? visibility[i] : 0.0f;
     }
 }
@@ -103,9 +121,9 @@ void ExactTilePool::give_back(std::unique_ptr<ExactTile> tile) {
 
 std::int64_t exact_tile_bytes(std::size_t lights) {
     constexpr std::int64_t samples = std::int64_t{frame_tile_side} * frame_tile_side * exact_samples_together;
-    // Depth, normal, triangle, face and position of a sample, two masks, a bit for each light; 37 bytes to
-    // look it up.
-    return samples * (6 * 4 + 3 * 8 + 37) + samples / 8 * static_cast<std::int64_t>(4 + 2 * lights);
+    // Depth, normal, triangle (twice), face and position of a sample, two masks, a bit for each light; 37
+    // bytes to look it up.
+    return samples * (7 * 4 + 3 * 8 + 37) + samples / 8 * static_cast<std::int64_t>(4 + 2 * lights);
 }
 
 }  // namespace obscura

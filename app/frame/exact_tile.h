@@ -15,8 +15,8 @@ namespace obscura {
 /// memory.
 constexpr int exact_samples_together = 4;
 
-/// Up to exact_samples_together samples of every pixel of a tile, one after the other, in blocks of rows as
-/// SurfaceBlock has them.
+/// Up to exact_samples_together samples of every pixel of a tile, as points in the order of
+/// exact_point_index().
 class ExactTile {
   public:
     explicit ExactTile(std::size_t lights);
@@ -29,10 +29,11 @@ class ExactTile {
     /// What run() found of stage 1 for its k-th sample, into work.depth and work.triangle.
     void restore(int k, TileWork& work) const;
 
-    // Parts of run(): keeps a block's surfaces as points of the k-th sample, from first_row on; and the
-    // points of the first `count` samples.
-    void keep_block(const TileScene& scene, int k, int first_row, const SurfaceBlock& block);
-    ExactPoints points(int count) const;
+    // Parts of run(): forgets what there was and expects `count` samples of every pixel; keeps a block's
+    // surfaces as points of the k-th of them, from first_row on; and the points.
+    void begin(int count);
+    void keep_block(const TileScene& scene, int k, int count, int first_row, const SurfaceBlock& block);
+    ExactPoints points() const;
 
     /// Puts 0 for those of a block's samples that the light does not reach: of the k-th sample, from
     /// first_row on.
@@ -41,14 +42,12 @@ class ExactTile {
   private:
     static constexpr std::size_t tile_samples = std::size_t{frame_tile_side} * frame_tile_side;
     static constexpr std::size_t room = tile_samples * exact_samples_together;
-    static std::size_t place(int k, int first_row) {
-        return static_cast<std::size_t>(k) * tile_samples +
-               static_cast<std::size_t>(first_row) * frame_tile_side;
-    }
+    static std::size_t points_of(int samples) { return static_cast<std::size_t>(samples) * tile_samples; }
 
     Buffer<float> depth_, gx_, gy_, gz_;
     Buffer<double> px_, py_, pz_;
-    Buffer<std::uint32_t> triangle_, face_, covered_, thin_, lit_;
+    int count_ = 0;
+    Buffer<std::uint32_t> triangle_, of_point_, face_, covered_, thin_, lit_;
     ExactWork work_;
 };
 

@@ -157,9 +157,11 @@ void PixelStory::tell_lookup(const TileLight& light, std::size_t shadow, int at)
 /// Finds the sample's own exact shadow, with the triangle that casts it.
 void PixelStory::tell_exact(const TileLight& light, int at) {
     ExactTile tile(1);
-    tile.keep_block(tiles_, 0, 0, work_->surface);
-    const ExactPoints points = tile.points(1);
-    const ref::ExactShadow shadow = ref::exact_shadow(points, *light.exact, at);
+    tile.begin(1);
+    tile.keep_block(tiles_, 0, 1, 0, work_->surface);
+    const ExactPoints points = tile.points();
+    const ref::ExactShadow shadow = ref::exact_shadow(
+        points, *light.exact, exact_point_index(0, 1, at % frame_tile_side, at / frame_tile_side));
     std::fill_n(work_->visibility, block_samples, 0.0f);
     work_->visibility[at] = shadow.lit ? 1.0f : 0.0f;
     if (!shadow.asks) {

@@ -108,14 +108,10 @@ void aim(const PacketState& state, std::size_t light, const ExactPoints& s, cons
     }
 }
 
-/// Sixteen neighbours: 4 x 4 pixels, or 2 x 2 with four samples each.
-void choose(int packet_index, int per_pixel, Packet& packet) {
-    const int side = per_pixel == 4 ? 2 : 4, columns = frame_tile_side / side;
-    const int x0 = packet_index % columns * side, y0 = packet_index / columns * side;
-    for (int i = 0; i < 16; ++i) {
-        const int pixel = i % (side * side);
-        packet.at[i] = FrameSamples::index(i / (side * side), x0 + pixel % side, y0 + pixel / side);
-    }
+/// Sixteen neighbours: 4 x 4 pixels, or 2 x 2 with four samples each (exact_point_index()).
+void choose(int packet_index, Packet& packet) {
+    for (int i = 0; i < 16; ++i)
+        packet.at[i] = packet_index * 16 + i;
 }
 
 void trace_tile(PacketState& state, std::size_t tile) {
@@ -126,7 +122,7 @@ void trace_tile(PacketState& state, std::size_t tile) {
         const std::uint32_t* asking = state.asking[l].data() + first_word;
         std::uint32_t* lit = state.lit[l].data() + first_word;
         for (std::int32_t p = 0; p < points.count / 16; ++p) {
-            choose(p, state.samples.per_pixel, packet);
+            choose(p, packet);
             aim(state, l, points, asking, packet);
             if (!packet.any) continue;
             RTCIntersectContext context = coherent_context();

@@ -107,9 +107,10 @@ std::vector<std::vector<std::uint32_t>> asked_samples(const FrameSamples& sample
         Buffer<float> z(n), rounding(n);
         Buffer<std::uint32_t> point(n), lit(words);
         Buffer<std::uint8_t> view(n);
+        ExactCounts none;
         ExactSamples found{0, x.data(), y.data(), z.data(), rounding.data(), point.data(), view.data()};
         for (std::size_t l = 0; l < lights.size(); ++l) {
-            OBSCURA_DISPATCH(exec.isa, exact_locate, samples.points(t), lights[l], found, lit.data());
+            ref::exact_locate(samples.points(t), lights[l], found, lit.data(), none);
             for (std::size_t i = 0; i < static_cast<std::size_t>(found.count); ++i)
                 asking[l][t * words + point[i] / 16] |= 1u << point[i] % 16;
         }

@@ -6,6 +6,7 @@
 
 #include "app/frame/exact_tile.h"
 #include "app/frame/render_frame.h"
+#include "bench/shadows/visible_points.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "raster/exact/exact_shadow.h"
@@ -13,15 +14,29 @@
 namespace obscura {
 namespace {
 
-void keep(const SurfaceBlock& block, const Scene& scene, std::size_t to, FrameSamples& samples) {
-    std::copy_n(block.triangle, block_samples, samples.triangle.data() + to);
-    std::copy_n(block.gx, block_samples, samples.gx.data() + to);
-    std::copy_n(block.gy, block_samples, samples.gy.data() + to);
-    std::copy_n(block.gz, block_samples, samples.gz.data() + to);
-    std::copy_n(block.covered, block_groups, samples.covered_words.data() + to / 16);
-    std::copy_n(block.thin, block_groups, samples.thin_words.data() + to / 16);
-    exact_positions(block, scene.mesh, scene.camera.eye, samples.px.data() + to, samples.py.data() + to,
-                    samples.pz.data() + to, samples.face.data() + to);
+/// A block's samples, each the k-th of its pixel, from first_row of its tile on; `first`: the tile's first
+/// point.
+void keep(const SurfaceBlock& block, const Scene& scene, std::size_t first, int k, int first_row,
+          FrameSamples& samples) {
+    double px[block_samples], py[block_samples], pz[block_samples];
+    std::uint32_t face[block_samples];
+    exact_positions(block, scene.mesh, scene.camera.eye, px, py, pz, face);
+    for (int i = 0; i < block_samples; ++i) {
+        if (!is_covered(block, i)) continue;
+        const std::size_t to =
+            first + static_cast<std::size_t>(exact_point_index(k, samples.per_pixel, i % frame_tile_side,
+                                                               first_row + i / frame_tile_side));
+        samples.px[to] = px[i];
+        samples.py[to] = py[i];
+        samples.pz[to] = pz[i];
+        samples.gx[to] = block.gx[i];
+        samples.gy[to] = block.gy[i];
+        samples.gz[to] = block.gz[i];
+        samples.face[to] = face[i];
+        samples.triangle[to] = block.triangle[i];
+        samples.covered_words[to / 16] |= 1u << (to % 16);
+        samples.thin_words[to / 16] |= (block.thin[i / 16] >> (i % 16) & 1u) << (to % 16);
+    }
 }
 
 }  // namespace
@@ -63,14 +78,13 @@ FrameSamples frame_samples(const Scene& scene, const Exec& exec) {
     samples.covered_words.reset(all / 16);
     samples.thin_words.reset(all / 16);
     std::fill_n(samples.covered_words.data(), all / 16, 0u);
+    std::fill_n(samples.thin_words.data(), all / 16, 0u);
     parallel_for(samples.tiles, exec, [&](std::size_t t) {
         const auto work = std::make_unique<TileWork>();
         for (int k = 0; k < samples.per_pixel; ++k) {
             const SamplePosition sample = tiles.pattern[static_cast<std::size_t>(k)];
             walk_blocks(tiles, t, sample, exec.isa, *work, [&](const TileRect&, int first_row) {
-                const std::size_t at =
-                    t * samples.per_tile() + static_cast<std::size_t>(FrameSamples::index(k, 0, first_row));
-                keep(work->surface, scene, at, samples);
+                keep(work->surface, scene, t * samples.per_tile(), k, first_row, samples);
             });
         }
     });

@@ -12,8 +12,8 @@
 
 namespace obscura {
 
-/// Sample k of pixel (x, y) of tile t stands at t * per_tile() + index(k, x, y); those outside of the picture
-/// count as not there. About 40 bytes a sample.
+/// Sample k of pixel (x, y) of tile t stands at t * per_tile() + exact_point_index(); those outside of the
+/// picture count as not there. About 40 bytes a sample.
 struct FrameSamples {
     std::size_t tiles = 0;
     int per_pixel = 1;  ///< 1 or 4: as many as exact shadows take together
@@ -26,8 +26,6 @@ struct FrameSamples {
     std::size_t per_tile() const {
         return static_cast<std::size_t>(per_pixel) * frame_tile_side * frame_tile_side;
     }
-    /// Of sample k of pixel (x, y) in its tile.
-    static int index(int k, int x, int y) { return (k * frame_tile_side + y) * frame_tile_side + x; }
     ExactPoints points(std::size_t tile) const;
 };
 

@@ -181,14 +181,16 @@ struct ExactCounts {
     }
 };
 
-/// exact_locate: of every point that asks for light, the bit in `lit` (as ExactPoints' masks): not of those
-/// that are not there, nor of those that face away. Those that something may darken become samples.
-/// exact_darken: takes the bits of darkened samples out of `lit`. order[i]: sample that stands at place i;
-/// sixteen neighbours in that order are looked up together, so they should be neighbours on the grid, and
-/// views should follow one another. Any order gives the same bits. Adds to `counts`.
+/// exact_locate: of every point that light reaches, the bit in `lit` (as ExactPoints' masks): not of those
+/// that are not there, nor of those that face away. Kernels take points in bunches of sixteen, sixteen
+/// bunches at a time, as they come; where these stand together on the light's grid, they are done. Others
+/// become samples, and so does with `ref` whatever something may darken. exact_darken: takes the bits of
+/// darkened samples out of `lit`. order[i]: sample that stands at place i; sixteen neighbours in that order
+/// are looked up together, so they should be neighbours on the grid, and views should follow one another. Any
+/// order gives the same bits. Adds to `counts`.
 #define OBSCURA_EXACT                                                                                  \
     void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,       \
-                      std::uint32_t* lit) noexcept;                                                    \
+                      std::uint32_t* lit, ExactCounts& counts) noexcept;                               \
     void exact_darken(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples, \
                       const std::uint32_t* order, std::uint32_t* lit, ExactCounts& counts) noexcept;
 namespace ref {

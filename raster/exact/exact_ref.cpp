@@ -150,7 +150,7 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
 }  // namespace
 
 void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,
-                  std::uint32_t* lit) noexcept {
+                  std::uint32_t* lit, ExactCounts& /*counts*/) noexcept {
     samples.count = 0;
     for (int at = 0; at < points.count; ++at) {
         if (at % 16 == 0) lit[at / 16] = 0;

@@ -43,7 +43,7 @@ ExactWork::ExactWork(std::size_t most_points)
 
 void ExactWork::shadows(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
                         ExactCounts& counts) {
-    OBSCURA_DISPATCH(isa, exact_locate, points, light, samples_, lit);
+    OBSCURA_DISPATCH(isa, exact_locate, points, light, samples_, lit, counts);
     if (samples_.count == 0) return;
     sort_samples(light.views);
     OBSCURA_DISPATCH(isa, exact_darken, points, light, samples_, order_.data(), lit, counts);

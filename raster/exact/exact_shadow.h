@@ -41,6 +41,17 @@ class ExactWork {
     Buffer<std::uint8_t> view_;
 };
 
+/// Where sample k of `count` of pixel (x, y) of a tile stands among the tile's points: along a Morton curve
+/// of the pixels, a pixel's samples together, so that neighbours in the list are neighbours in the picture.
+constexpr int exact_point_index(int k, int count, int x, int y) {
+    const auto spread = [](int v) {
+        v = (v | (v << 4)) & 0x0f0f;
+        v = (v | (v << 2)) & 0x3333;
+        return (v | (v << 1)) & 0x5555;
+    };
+    return (spread(x) | spread(y) << 1) * count + k;
+}
+
 /// Positions of a block's samples in doubles, each on the plane of its face, and these faces: block_samples
 /// of each. Positions in the block are floats, relative to the eye.
 void exact_positions(const SurfaceBlock& block, const Mesh& mesh, Vec3d eye, double* px, double* py,

@@ -46,7 +46,7 @@ TEST(FrameSamples, AreThePointsThatPixelsSee) {
             const auto x = static_cast<int>(pixel % 192), y = static_cast<int>(pixel / 192);
             const ExactPoints tile =
                 samples.points(static_cast<std::size_t>(y / frame_tile_side * 3 + x / frame_tile_side));
-            const int i = FrameSamples::index(0, x % frame_tile_side, y % frame_tile_side);
+            const int i = exact_point_index(0, 1, x % frame_tile_side, y % frame_tile_side);
             ASSERT_EQ((tile.covered[i / 16] >> (i % 16) & 1u) != 0, is_covered(block, at));
             if (!is_covered(block, at)) continue;
             ++compared;
