@@ -205,10 +205,17 @@ class BlockSetup {
         if (params_.culling == Culling::back_faces && !front) return;
         if (front) std::swap(q, r);
 
-        const DepthPlane& plane = setup_.planes[mesh_.face[t]];
+        const DepthPlane plane = params_.depth_planes ? setup_.planes[mesh_.face[t]] : nearest_corner(t);
         *out_++ = {{p.x, q.x, r.x}, {p.y, q.y, r.y}, plane.a, plane.b, plane.c,
                    plane.zmin,      plane.zmax,      t,       crossing};
         if (params_.pair_faces) pair_with_last();
+    }
+
+    DepthPlane nearest_corner(std::uint32_t t) const {
+        DepthPlane plane;
+        plane.zmin = from_ordered(triangle_range(mesh_, view_, setup_, t).low);
+        plane.zmax = view_.max_depth;
+        return plane;
     }
 
     /// Makes a pair of the last two records where they are the halves of a convex quadrilateral: one planar
@@ -347,7 +354,7 @@ void setup_triangles(const Mesh& mesh, const View& view, const SetupParams& para
     setup.blocks.clear();
     if (mesh.triangles.empty()) return;
     const bool clipping = transform_all(mesh, view, exec, setup.vertices);
-    face_planes(mesh, view, exec, setup);
+    if (params.depth_planes) face_planes(mesh, view, exec, setup);
     lay_out_blocks(mesh, clipping, exec, setup);
     parallel_for(setup.blocks.size(), exec, [&](std::size_t b) {
         const std::size_t begin = b * block_triangles;

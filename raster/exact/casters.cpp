@@ -159,7 +159,7 @@ class Builder {
             boxes.x_high[k] = b.x_high;
             boxes.y_low[k] = b.y_low;
             boxes.y_high[k] = b.y_high;
-            boxes.z_low[k] = nearest_depth(t) - depth_error;
+            boxes.z_low[k] = t.zmin - depth_error;
         }
     }
 
@@ -183,17 +183,6 @@ class Builder {
         set(c.n, plane.n * side);
         c.d = plane.d * side;
         return c;
-    }
-
-    float nearest_depth(const TriangleRecord& t) const {
-        float z = std::numeric_limits<float>::infinity();
-        for (const std::uint32_t v : mesh_.triangles[t.triangle].v) {
-            const MapVertex& vertex = setup_.vertices[v];
-            // Depth means nothing before the near plane.
-            if ((vertex.clip & clip_near) != 0) return 0.0f;
-            z = std::min(z, vertex.z);
-        }
-        return z;
     }
 
     void bound(const Buffer<CasterBoxes>& below, Buffer<CasterBoxes>& above) const {
@@ -237,6 +226,7 @@ std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const E
         SetupParams setup;
         setup.only_casters = true;
         setup.centre_samples_only = false;
+        setup.depth_planes = false;
         setup_triangles(mesh, view, setup, exec, scratch);
         Builder(mesh, light, exec, scratch).run(casters);
     }
