@@ -40,6 +40,10 @@ std::vector<std::uint32_t> exact_bits(const SeenPoints& seen, const ExactLight& 
     std::vector<std::uint32_t> lit(seen.covered.size());
     ExactCounts counts;
     work.shadows(seen.points(), light, exec.isa, lit.data(), counts);
+    // Kernels order only what does not stand together anyway; the definition orders all, for panel 2.
+    std::vector<std::uint32_t> defined(lit.size());
+    work.shadows(seen.points(), light, Isa::ref, defined.data(), counts);
+    CHECK(lit == defined);
     return lit;
 }
 void check_exact(const SeenPoints& seen, const ExactLight& light, const Visibility& exact,

@@ -13,18 +13,19 @@
 
 namespace obscura {
 
-/// Working memory of exact_shadows(): 37 bytes a point.
+/// Working memory of exact shadows: 37 bytes a point.
 class ExactWork {
   public:
     explicit ExactWork(std::size_t most_points);
 
     /// Bit i % 16 of lit[i / 16]: whether light reaches point i; not of points that face away. At most
-    /// `most_points` points. Points are taken along a Morton curve on the light's grid. The same bits for any
-    /// isa; counts are the same for all but `ref`, which asks sample by sample.
+    /// `most_points` points. Kernels take points as they come where these stand together before the light;
+    /// the others, and all of them with `ref`, are samples that are taken along a Morton curve on the light's
+    /// grid. The same bits for any isa; counts are the same for all but `ref`, which asks sample by sample.
     void shadows(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
                  ExactCounts& counts);
 
-    /// Of the last call: what was looked up, and in which order, sixteen neighbours of it together.
+    /// Of the last call: these samples, and in which order; sixteen neighbours of it were taken together.
     const ExactSamples& samples() const { return samples_; }
     std::span<const std::uint32_t> order() const {
         return {order_.data(), static_cast<std::size_t>(samples_.count)};

@@ -18,6 +18,7 @@
 #include "bench/shadows/frame_samples.h"
 #include "bench/shadows/scenes.h"
 #include "bench/shadows/visible_points.h"
+#include "raster/exact/exact_shadow.h"
 #include "raster/view.h"
 
 namespace obscura {
