@@ -8,8 +8,7 @@
 // may mean, and 1/256 pixel beside its own triangle, whose corners the camera has snapped.
 //
 // Calls: raster/exact/casters.h build_casters, exact_light, raster/exact/exact_shadow.h ExactWork,
-//        ref::exact_shadow, ref::exact_darkens, raster/shadow_map.h build_shadow_map, filters/pcf.h
-//        pcf_block.
+//        ref::exact_shadow, exact_darkens, raster/shadow_map.h build_shadow_map, filters/pcf.h pcf_block.
 
 #include <algorithm>
 #include <string>
@@ -33,15 +32,13 @@ constexpr int map_texels = 256;
 constexpr float bias = 0.006f;  ///< of the depth range
 constexpr Crop close_up{40, 87, 47, 34};
 
-// Step 1: exact shadows of a picture's samples. Every instruction set must say what the definition says, and
-// that what rays to the sun say, which know neither grid nor boxes.
+// Step 1: exact shadows of a picture's samples. Kernels must say what the definition says, which orders all
+// samples, and that what rays to the sun say, which know neither grid nor boxes.
 std::vector<std::uint32_t> exact_bits(const SeenPoints& seen, const ExactLight& light, ExactWork& work,
                                       const Exec& exec) {
-    std::vector<std::uint32_t> lit(seen.covered.size());
+    std::vector<std::uint32_t> lit(seen.covered.size()), defined = lit;
     ExactCounts counts;
     work.shadows(seen.points(), light, exec.isa, lit.data(), counts);
-    // Kernels order only what does not stand together anyway; the definition orders all, for panel 2.
-    std::vector<std::uint32_t> defined(lit.size());
     work.shadows(seen.points(), light, Isa::ref, defined.data(), counts);
     CHECK(lit == defined);
     return lit;
@@ -179,8 +176,7 @@ Image<Rgb8> lesson_19_exact_shadows(const Exec& exec) {
     const SeenPoints seen = seen_points(scene, 1, exec);
     ExactWork work(seen.size());
     const std::vector<std::uint32_t> lit = exact_bits(seen, light, work, exec);
-    const Visibility exact = of_bits(lit);
-    const Visibility truth = by_rays(scene, seen, exec);
+    const Visibility exact = of_bits(lit), truth = by_rays(scene, seen, exec);
     check_exact(seen, light, exact, truth);
 
     const ExactPicture picture = exact_picture(light, seen.points(), work, lit, map.views[0]);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -51,7 +52,12 @@ TEST(FrameSamples, AreThePointsThatPixelsSee) {
             ASSERT_EQ((tile.covered[i / 16] >> (i % 16) & 1u) != 0, is_covered(block, at));
             if (!is_covered(block, at)) continue;
             ++compared;
-            ASSERT_EQ(tile.px[i], block.px[at]);
+            // A float relative to the eye, and then on the plane of its face.
+            const double float_x = points.eye.x + static_cast<double>(block.px[at]);
+            ASSERT_NEAR(tile.px[i], float_x, 1e-5 * (1 + std::fabs(static_cast<double>(block.px[at]))));
+            const Plane& plane = scene.mesh.faces[tile.face[i]];
+            ASSERT_NEAR(dot(plane.n, Vec3d{tile.px[i], tile.py[i], tile.pz[i]}) + plane.d, 0, 1e-12);
+            ASSERT_EQ(tile.triangle[i], block.triangle[at]);
             ASSERT_EQ(tile.gz[i], block.gz[at]);
             ASSERT_EQ(tile.face[i], scene.mesh.face[block.triangle[at]]);
         }

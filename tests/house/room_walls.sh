@@ -25,7 +25,7 @@ app/pair         app/frame
 app/report       app/pair lessons/drawing
 app/cli          app/report
 lessons/drawing  core
-lessons          optics stereo stereo/thesis scenes lessons/drawing
+lessons          optics stereo stereo/thesis scenes raster/exact lessons/drawing
 bench/embree     core
 bench/harness    app/scene
 bench/raster     app/frame bench/harness bench/embree

@@ -46,7 +46,7 @@ constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd
                             "a622c68fa6df36e5", "dd1d1daba66836c0", "bad0f240905ab4ef", "978e552047151592",
                             "bcc896970de58f40", "eae4629398c439fa", "bb4e9518dd83ec37", "54a9d24dd16b3d21",
                             "294c403290cf5138", "2803981a406f08b1", "2ec60dd5b8ad2b03", "900cdba5ce26b68d",
-                            "f1ef4a390dcd3930", "990754ca6ce5e483", "3b4e045744f550f7"};
+                            "f1ef4a390dcd3930", "990754ca6ce5e483", "4b00908a3d75a2e1"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
