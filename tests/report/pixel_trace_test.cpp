@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "filters/tonemap.h"
+#include "raster/camera_rays.h"
 #include "tests/frame/scenes.h"
 
 namespace obscura {
@@ -12,20 +13,51 @@ namespace {
 
 using namespace frame_scenes;
 
+/// The same with exact shadows.
+Scene exactly(Scene scene) {
+    for (SceneLight& light : scene.lights)
+        light.shadow.method = ShadowMethod::exact;
+    return scene;
+}
+
+void expect_pictures_pixels(const Scene& scene) {
+    FrameCache cache;
+    Frame frame;
+    render_frame(scene, {}, {}, cache, frame);
+    const Image<Rgb8> picture = tonemap(std::as_const(frame.radiance).view(), {}, {});
+    for (const auto& [x, y] :
+         {std::pair{0, 0}, {199, 129}, {60, 60}, {100, 40}, {130, 70}, {101, 100}, {95, 47}}) {
+        const PixelTrace trace = trace_pixel(scene, x, y, {}, cache);
+        EXPECT_EQ(trace.radiance, pixel(frame, x, y)) << trace.text;
+        EXPECT_EQ(trace.pixel, picture(x, y)) << trace.text;
+    }
+}
+
 TEST(PixelTrace, EndsAtThePicturesPixelBitForBit) {
     for (const int samples : {1, 4, 16}) {
-        const Scene scene = everything(samples);
-        FrameCache cache;
-        Frame frame;
-        render_frame(scene, {}, {}, cache, frame);
-        const Image<Rgb8> picture = tonemap(std::as_const(frame.radiance).view(), {}, {});
-        for (const auto& [x, y] :
-             {std::pair{0, 0}, {199, 129}, {60, 60}, {100, 40}, {130, 70}, {101, 100}, {95, 47}}) {
-            const PixelTrace trace = trace_pixel(scene, x, y, {}, cache);
-            EXPECT_EQ(trace.radiance, pixel(frame, x, y)) << trace.text;
-            EXPECT_EQ(trace.pixel, picture(x, y)) << trace.text;
-        }
+        expect_pictures_pixels(everything(samples));
+        expect_pictures_pixels(exactly(everything(samples)));
     }
+}
+
+TEST(PixelTrace, NamesTheTriangleThatDarkensASample) {
+    // A box over a ground, seen from above.
+    Scene scene = empty_scene(64, 48);
+    add(scene, plane(6, 6), 0);
+    add(scene, box({1, 1, 1}), 0, {0, 1.5f, 0});
+    scene.camera.eye = {0, 6, 0.01};
+    scene.camera.look_at = {0, 0, 0};
+    scene.lights.push_back(directional({-1, -1, 0}, {1, 1, 1}));
+    scene = exactly(std::move(scene));
+    const CameraRays rays = camera_rays(scene.camera, 64, 48);
+    // The point (-1.5, 0, 0) of the ground lies straight behind the box; (2, 0, 0) is free.
+    const auto column = [&](double x) { return static_cast<int>((x / 6 - rays.dir0[0]) / rays.dir_x[0]); };
+    const std::string dark = trace_pixel(scene, column(-1.5), 24).text,
+                      lit = trace_pixel(scene, column(2), 24).text;
+    for (const char* word : {"exact: view 0 of 1", "triangles darken it", "of object \"part\"",
+                             "m along the light", "behind its plane", "visibility 0"})
+        EXPECT_NE(dark.find(word), std::string::npos) << word << "\n" << dark;
+    EXPECT_NE(lit.find("visibility 1"), std::string::npos) << lit;
 }
 
 TEST(PixelTrace, TellsOfEveryStage) {

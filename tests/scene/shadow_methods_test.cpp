@@ -1,0 +1,107 @@
+// Which shadows a light gets that names no method, why, and which keys go with which method.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "app/scene/build.h"
+#include "app/scene/rules_shadow.h"
+#include "app/scene/scene_file.h"
+#include "core/error.h"
+
+namespace obscura {
+namespace {
+
+struct Planned {
+    std::string method, scope, reason;
+};
+
+Planned planned(const std::string& shadow, const std::string& frames = "", const std::string& extra = "") {
+    const SceneDocument scene = read_scene_text(
+        "format = 1\n"
+        "camera = {eye_m = [0, 2, 8], look_at_m = [0, 1, 0]}\n"
+        "[[light]]\n"
+        "id = \"l\"\n"
+        "type = \"directional\"\n"
+        "azimuth_deg = 120\n"
+        "elevation_deg = 30\n" +
+            shadow + "\n" + frames + "\n" + extra + "\n",
+        "s.toml");
+    const SceneTable& light = *subtables(scene.root, "light").at(0);
+    const SceneTable& settings = subtable(light, "shadow");
+    // A dumped scene names its method and is not planned again.
+    const std::string dumped = dump_scene(scene);
+    EXPECT_EQ(dump_scene(read_scene_text(dumped, "dump.toml")), dumped);
+    return {text(settings, "method"), settings.has("scope") ? text(settings, "scope") : "",
+            shadow_method_reason(scene.root, light)};
+}
+
+TEST(ShadowMethods, OneFrameIsExact) {
+    const Planned p = planned("");
+    EXPECT_EQ(p.method, "exact");
+    EXPECT_EQ(p.reason, "one frame");
+}
+
+TEST(ShadowMethods, KeysOfMapsAskForOne) {
+    for (const char* key :
+         {"resolution = 1024", "filter_px = 5", "normal_offset_texels = 1.5", "filter = \"hierarchical\"",
+          "scope = \"full\"", "max_magnification = 2", "layout = \"words16\"", "top_levels = 3",
+          "receivers = \"any\"", "resolution = \"auto\"", "cache = \"maps\""}) {
+        const std::string setting = key;
+        const Planned p = planned("shadow = {" + setting + "}");
+        EXPECT_EQ(p.method, "compressed") << setting;
+        EXPECT_NE(p.reason.find("'" + setting.substr(0, setting.find(' ')) + "'"), std::string::npos)
+            << setting << ": " << p.reason;
+    }
+}
+
+TEST(ShadowMethods, ATreePaysWhereALightStandsStillForLong) {
+    EXPECT_EQ(planned("", "[frames]\nrange = \"1-199\"").method, "exact");
+    const Planned still = planned("", "[frames]\nrange = \"1-200\"");
+    EXPECT_EQ(still.method, "compressed");
+    EXPECT_EQ(still.scope, "full");
+    const Planned moving = planned("",
+                                   "[frames]\nrange = \"1-200\"\n[[frames.light]]\nid = \"l\"\nframe = 1\n"
+                                   "elevation_deg = 10");
+    EXPECT_EQ(moving.method, "exact");
+    EXPECT_EQ(moving.reason, "the light changes from frame to frame");
+    const Planned camera =
+        planned("", "[frames]\nrange = \"1-400x2\"\n[[frames.camera]]\nframe = 1\neye_m = [0, 2, 9]");
+    EXPECT_EQ(camera.method, "compressed");
+}
+
+TEST(ShadowMethods, ACacheForAllLightsKeepsTrees) {
+    const Planned p = planned("", "[shadow]\ncache = \"maps\"");
+    EXPECT_EQ(p.method, "compressed");
+    EXPECT_EQ(p.scope, "full");
+}
+
+TEST(ShadowMethods, WhatIsAskedForStays) {
+    for (const char* method : {"none", "exact", "map", "compressed"}) {
+        const Planned p =
+            planned("shadow = {method = \"" + std::string(method) + "\"}", "[frames]\nrange = \"1-500\"");
+        EXPECT_EQ(p.method, method);
+        EXPECT_EQ(p.reason, "as asked");
+    }
+}
+
+TEST(ShadowMethods, KeysThatAMethodDoesNotReadAreRefused) {
+    const auto message = [](const std::string& settings) -> std::string {
+        try {
+            planned("shadow = {" + settings + "}");
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_NE(message("method = \"exact\", resolution = 1024")
+                  .find("'resolution' needs method = \"map\" or \"compressed\""),
+              std::string::npos);
+    EXPECT_NE(message("method = \"exact\", filter_px = 3").find("'filter_px' needs"), std::string::npos);
+    EXPECT_NE(message("method = \"exact\", scope = \"full\"").find("'scope' needs method = \"compressed\""),
+              std::string::npos);
+    EXPECT_EQ(message("method = \"exact\", receivers = \"any\""), "");
+}
+
+}  // namespace
+}  // namespace obscura
