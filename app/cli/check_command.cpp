@@ -87,12 +87,18 @@ bool open_casters(const Mesh& mesh) {
 
 /// What exact shadows take, in triangles and samples; seconds are the machine's.
 std::string exact_text(const SceneLight& light, const Scene& scene) {
-    const auto samples = std::int64_t{scene.render.width} * scene.render.height * scene.render.samples;
+    const Mesh& mesh = scene.mesh;
+    std::size_t casters = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        casters += mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow ? 1 : 0;
+    const std::int64_t margin = glare_margin(scene);
+    const std::int64_t samples =
+        (scene.render.width + 2 * margin) * (scene.render.height + 2 * margin) * scene.render.samples;
+    const int views = shadow_map_count(light);
     return fmt::format(
         ", shadows of the picture's own samples, exact: {} to put in order{}, up to {} to look up",
-        count_text(scene.mesh.triangles.size(), "triangle"),
-        shadow_map_count(light) > 1 ? fmt::format(" in {} views", shadow_map_count(light)) : "",
-        count_text(static_cast<std::size_t>(samples), "sample"));
+        count_text(casters, "triangle"), views > 1 ? fmt::format(" in {} views", views) : "",
+        count_text(samples, "sample"));
 }
 
 /// `light`: its resolution as found. `reason`: for its method.

@@ -101,15 +101,17 @@ bool build_map(const Work& work, LightShadow& shadow) {
     return true;
 }
 
-void build_exact(const Work& work, LightShadow& shadow) {
+bool build_exact(const Work& work, LightShadow& shadow) {
     const Stopwatch watch;
-    shadow.exact =
-        build_casters(work.scene.mesh, shadow.light.light, work.exec, work.cache.light_scratch.setup);
+    shadow.exact = build_casters(work.scene.mesh, shadow.light.light, work.exec,
+                                 work.cache.light_scratch.setup, work.cancel);
+    if (shadow.exact.empty()) return false;
     for (const Casters& view : shadow.exact) {
         shadow.stats.casters += static_cast<std::int64_t>(view.count);
         shadow.stats.bytes += static_cast<std::uint64_t>(view.bytes());
     }
     shadow.stats.build.build_s = watch.seconds();
+    return true;
 }
 
 /// Refuses resolutions that make the frame too large, before anything is built.
@@ -193,10 +195,7 @@ std::vector<std::optional<std::vector<NeededNodes>>> needed_of_frame(const Work&
 bool build_shadow(const Work& work, const std::vector<std::optional<std::vector<NeededNodes>>>& needed,
                   std::size_t& next_needed, std::int64_t most_bytes, LightShadow& shadow) {
     if (shadow.light.shadow.method == ShadowMethod::map) return build_map(work, shadow);
-    if (shadow.light.shadow.method == ShadowMethod::exact) {
-        build_exact(work, shadow);
-        return true;
-    }
+    if (shadow.light.shadow.method == ShadowMethod::exact) return build_exact(work, shadow);
     if (shadow.light.shadow.scope == ShadowScope::full) return build_trees(work, nullptr, most_bytes, shadow);
     const auto& of_light = needed[next_needed++];
     if (!of_light) {
@@ -237,7 +236,7 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
         if (!casts_shadows(work.scene.lights[light.scene_light])) continue;
         const LightShadow& shadow = work.cache.shadows[next++];
         if (shadow.light.shadow.method == ShadowMethod::exact) {
-            light.exact = exact_light(shadow.light.light, shadow.exact, work.scene.mesh, tiles.rays);
+            light.exact = exact_light(shadow.light.light, shadow.exact, *tiles.mesh, tiles.rays);
             continue;
         }
         if (shadow.light.shadow.method == ShadowMethod::map) {

@@ -162,15 +162,14 @@ void PixelStory::tell_exact(const TileLight& light, int at) {
     const ExactPoints points = tile.points();
     const ref::ExactShadow shadow = ref::exact_shadow(
         points, *light.exact, exact_point_index(0, 1, at % frame_tile_side, at / frame_tile_side));
-    std::fill_n(work_->visibility, block_samples, 0.0f);
-    work_->visibility[at] = shadow.lit ? 1.0f : 0.0f;
+    if (!light.pcf) std::fill_n(work_->visibility, block_samples, 1.0f);
+    if (!shadow.lit) work_->visibility[at] = 0.0f;
     if (!shadow.asks) {
         say("      exact: the face looks away, visibility 0");
         return;
     }
     if (!shadow.on_map) {
-        say("      exact: {}, visibility 1",
-            light.exact->directional ? "beyond everything that casts a shadow" : "before the near plane");
+        say("      exact: before the near plane, or beyond everything that casts a shadow; visibility 1");
         return;
     }
     say("      exact: view {} of {}, step ({}, {}) of {} a side, place uncertain by {:.3g} m", shadow.view,

@@ -151,7 +151,8 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
             settings.set("method", value_of(name_of(shadow_method_words, method)));
             // A tree for many frames serves all of them.
             if (method == ShadowMethod::compressed && !has_any(settings, compressed_keys) &&
-                !has_any(settings, map_keys) && range && range->count() >= tree_break_even_frames) {
+                !has_any(settings, map_keys) && !has_keyframes(root, light) && range &&
+                range->count() >= tree_break_even_frames) {
                 settings.set("scope", value_of("full"));
             }
         }
@@ -190,7 +191,7 @@ std::string shadow_method_reason(const SceneTable& root, const SceneTable& light
                            tree_break_even_frames, frames);
     }
     if (frames == 1) return "one frame";
-    if (has_keyframes(root, light)) return "the light changes from frame to frame";
+    if (has_keyframes(root, light)) return "the light has keyframes";
     return fmt::format("{} frames; a tree pays from {} on", frames, tree_break_even_frames);
 }
 

@@ -30,10 +30,10 @@ inline constexpr Word<TreeLayout> tree_layout_words[] = {
 inline constexpr Word<Receivers> receivers_words[] = {{"any", Receivers::any},
                                                       {"static", Receivers::static_only}};
 
-/// From how many frames on a tree of all that a light sees pays, when no method is asked for: building one
-/// takes as long as looking up the samples of about so many frames exactly takes longer than in a tree
+/// From how many frames on a tree of all that a light sees pays, when no method is asked for: building the
+/// courtyard's takes as long as exact shadows take longer than lookups in so many frames
 /// (raster/exact/README.md has the measurements).
-constexpr int tree_break_even_frames = 200;
+constexpr int tree_break_even_frames = 350;
 
 constexpr int auto_resolution = 0;
 constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;

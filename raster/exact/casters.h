@@ -1,6 +1,7 @@
 #pragma once
 // What casts shadows, in the order that exact shadows look for it.
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -27,10 +28,10 @@ struct Casters {
     std::int64_t bytes() const;
 };
 
-/// Casters of every view that the light needs: one, or six of a point light. The same for any exec. The mesh
-/// needs its topology.
+/// Casters of every view that the light needs: one, or six of a point light; none when `cancel` was set
+/// before they were done. The same for any exec. The mesh needs its topology.
 std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const Exec& exec,
-                                   TriangleSetup& scratch);
+                                   TriangleSetup& scratch, const std::atomic<bool>* cancel = nullptr);
 
 /// Bytes of so many triangles in order; and of what sorting takes meanwhile, beside setup_bytes().
 std::int64_t casters_bytes(std::int64_t triangles);

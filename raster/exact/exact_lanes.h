@@ -267,7 +267,7 @@ struct Nearby {
         const F32 reach =
             (abs(n0) * splat(s.half[0]) + abs(n1) * splat(s.half[1])) + abs(n2) * splat(s.half[2]);
         const float size = (abs_of(s.middle[0]) + abs_of(s.middle[1])) + abs_of(s.middle[2]);
-        const F32 rounding = splat(0x1p-21f) * (splat(size) + abs(offset));
+        const F32 rounding = splat(0x1p-20f) * (splat(size) + abs(offset));
         may &= bits(less(height - reach - rounding, splat(-0.99f * s.rounding)));
         if (may == 0) return 0;
         // All of the bunch is outside of an edge.
@@ -280,7 +280,7 @@ struct Nearby {
             const I32 xk = load(x[k] + first), yk = load(y[k] + first);
             const F32 A = to_f32(yk - load(y[next] + first)), B = to_f32(load(x[next] + first) - xk);
             const F32 across = A * to_f32(mx - xk), down = B * to_f32(my - yk);
-            const F32 slack = (abs(A) * hx + abs(B) * hy) + splat(0x1p-21f) * (abs(across) + abs(down));
+            const F32 slack = (abs(A) * hx + abs(B) * hy) + splat(0x1p-20f) * (abs(across) + abs(down));
             may &= bits(less_equal(splat(0.0f), (across + down) + slack));
         }
         return may;
