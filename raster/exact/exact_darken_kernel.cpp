@@ -24,6 +24,29 @@ OBSCURA_INLINE void gather_bunch(const ExactPoints& points, const ExactLight& li
     finish_bunch(light, load(rounding), n >= 16 ? 0xffffu : (1u << n) - 1u, to);
 }
 
+/// Darkens the open lanes of `n` bunches, which are of one view.
+void darken(const ExactPoints& points, const ExactLight& light, const ExactView& view, Bunch* bunch, int n,
+            Nearby& nearby, ExactCounts& counts) {
+    // Halves, until what is near has room.
+    while (n > 1 && !collect(light, view, bunch, n, nearby, counts)) {
+        darken(points, light, view, bunch, n / 2, nearby, counts);
+        bunch += n / 2;
+        n -= n / 2;
+    }
+    if (n == 1) {
+        Bunch& s = bunch[0];
+        walk(view, s.extent, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
+            ++counts.triangles;
+            s.open &= ~darkened(view.triangles[first + static_cast<std::uint32_t>(k)], boxes.z_low[k], points,
+                                light, s);
+            return s.open != 0;
+        });
+        return;
+    }
+    for (int b = 0; b < n; ++b)
+        darken_near(points, light, view, nearby, Nearby::room, bunch[b], counts);
+}
+
 }  // namespace
 
 void exact_darken(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples,

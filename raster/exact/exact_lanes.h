@@ -344,28 +344,5 @@ OBSCURA_INLINE bool darken_near(const ExactPoints& points, const ExactLight& lig
     return true;
 }
 
-/// Darkens the open lanes of `n` bunches, which are of one view.
-void darken(const ExactPoints& points, const ExactLight& light, const ExactView& view, Bunch* bunch, int n,
-            Nearby& nearby, ExactCounts& counts) {
-    // Halves, until what is near has room.
-    while (n > 1 && !collect(light, view, bunch, n, nearby, counts)) {
-        darken(points, light, view, bunch, n / 2, nearby, counts);
-        bunch += n / 2;
-        n -= n / 2;
-    }
-    if (n == 1) {
-        Bunch& s = bunch[0];
-        walk(view, s.extent, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
-            ++counts.triangles;
-            s.open &= ~darkened(view.triangles[first + static_cast<std::uint32_t>(k)], boxes.z_low[k], points,
-                                light, s);
-            return s.open != 0;
-        });
-        return;
-    }
-    for (int b = 0; b < n; ++b)
-        darken_near(points, light, view, nearby, Nearby::room, bunch[b], counts);
-}
-
 }  // namespace
 }  // namespace obscura::OBSCURA_ISA

@@ -32,13 +32,12 @@ int leaks(const Stage& s, const MovedMesh& moved, Eye eye, int fine) {
     Image<std::uint32_t> triangle;
     Image<float> depth;
     stereo_views::rasterize(seen, camera_view(s.camera, fine * s.width, fine * s.height), triangle, depth);
-    const auto [least, greatest] =
-        std::minmax_element(s.mesh.positions.begin(), s.mesh.positions.end(),
-                            [](const Vec3f& a, const Vec3f& b) { return a.x < b.x; });
+    const auto ends = std::minmax_element(s.mesh.positions.begin(), s.mesh.positions.end(),
+                                          [](const Vec3f& a, const Vec3f& b) { return a.x < b.x; });
     const auto between = [&](std::uint32_t t) {
         const auto& v = s.mesh.triangles[moved.source[t]].v;
         const auto x = [&](int k) { return s.mesh.positions[v[k]].x; };
-        return x(0) == x(1) && x(1) == x(2) && x(0) > least->x && x(0) < greatest->x;
+        return x(0) == x(1) && x(1) == x(2) && x(0) > ends.first->x && x(0) < ends.second->x;
     };
     int count = 0;
     for (int y = 0; y < triangle.height; ++y) {
