@@ -4,6 +4,7 @@
 
 #include "core/simd_vec.h"
 #include "filters/pcf.h"
+#include "raster/cube_lanes.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {
@@ -87,16 +88,6 @@ OBSCURA_INLINE Mask between(const I32& a, std::int32_t low, std::int32_t high) {
 }
 OBSCURA_INLINE I32 clamped(const I32& a, std::int32_t low, std::int32_t high) {
     return min(max(a, splat(low)), splat(high));
-}
-
-/// Twin of cube_face() (raster/view.h).
-OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
-    const F32 ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero = splat(0.0f);
-    const auto face = [&](const F32& along, std::int32_t positive) {
-        return select(less_equal(zero, along), splat(positive), splat(positive + 1));
-    };
-    const I32 y_or_z = select(less_equal(az, ay), face(d.y, 2), face(d.z, 4));
-    return select(less_equal(ay, ax) & less_equal(az, ax), face(d.x, 0), y_or_z);
 }
 
 /// Square of the way on the map that a step on the receiver's plane makes.

@@ -20,6 +20,11 @@ bool builds_parts(const ShadowSettings& shadow) {
     return shadow.method == ShadowMethod::compressed && shadow.scope == ShadowScope::frame;
 }
 
+bool any_exact(std::span<const SceneLight> lights) {
+    return std::any_of(lights.begin(), lights.end(),
+                       [](const SceneLight& light) { return light.shadow.method == ShadowMethod::exact; });
+}
+
 /// Nodes of one view's tree, all of it. A model, not a bound: they grow with the length of the outlines on
 /// the map, that is with its side; 31 to 32 per texel of the side in the closed city of Scandolo, Bauszat and
 /// Eisemann 2016, more where there are many leaves. Construction stops at the limit. Nothing where the
@@ -63,17 +68,11 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
 }
 
 std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
-    const bool any = std::any_of(lights.begin(), lights.end(), [](const SceneLight& light) {
-        return light.shadow.method == ShadowMethod::exact;
-    });
-    return any ? casters_sorting_bytes(mesh.triangles) : 0;
+    return any_exact(lights) ? casters_sorting_bytes(mesh.triangles) : 0;
 }
 
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights) {
-    const bool any = std::any_of(lights.begin(), lights.end(), [](const SceneLight& light) {
-        return light.shadow.method == ShadowMethod::exact;
-    });
-    return any ? hardware_threads() * exact_tile_bytes(lights.size()) : 0;
+    return any_exact(lights) ? hardware_threads() * exact_tile_bytes(lights.size()) : 0;
 }
 
 int shadow_map_count(const SceneLight& light) {

@@ -184,8 +184,7 @@ void PixelStory::tell_exact(const TileLight& light, int at) {
             ? ""
             : fmt::format(" of object \"{}\"", mesh.objects[mesh.object[shadow.triangle]].name);
     say("        {} darken it; nearest is triangle {}{}, {:.6g} m along the light; the sample lies {:.6g} m "
-        "behind "
-        "its plane",
+        "behind its plane",
         count_text(static_cast<std::size_t>(shadow.triangles), "triangle"), shadow.triangle, object,
         shadow.distance_m, shadow.behind_m);
     say("      visibility 0");

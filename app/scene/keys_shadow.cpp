@@ -25,9 +25,8 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "picture's own samples; no texels, no filter, edges as sharp as the samples. map: a dense map. "
             "compressed: a tree of depth intervals, which gives a map's shadows at resolutions far beyond. "
             "When not given: compressed where a key that only maps have is given, or where the light "
-            "has no keyframes and there are 350 frames or more, which is when a tree pays; else exact. "
-            "`obscura check` "
-            "tells which, and why."),
+            "has no keyframes and there are 50 frames or more, which is when a tree pays; else exact. "
+            "`obscura check` tells which, and why."),
         count_or_word_row(
             &ShadowSettings::resolution, "auto", auto_resolution,
             integer_key(

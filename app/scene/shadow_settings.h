@@ -33,7 +33,7 @@ inline constexpr Word<Receivers> receivers_words[] = {{"any", Receivers::any},
 /// From how many frames on a tree of all that a light sees pays, when no method is asked for: building the
 /// courtyard's takes as long as exact shadows take longer than lookups in so many frames
 /// (raster/exact/README.md has the measurements).
-constexpr int tree_break_even_frames = 350;
+constexpr int tree_break_even_frames = 50;
 
 constexpr int auto_resolution = 0;
 constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;

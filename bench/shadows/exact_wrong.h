@@ -25,9 +25,8 @@ struct ExactPicture {
 ///  - edge: rays from the place 1/256 pixel away on its plane, to one of eight sides, or a step away on the
 ///    light's grid, likewise, say what is shown;
 ///  - beside: rays say so from u away along its plane's normal, to either side, or (from its position in
-///  floats,
-///    too) when they leave out every face whose plane passes within u, or from u away along the normal of the
-///    face that the method has darken it;
+///    floats, too) when they leave out every face whose plane passes within u, or from u away along the
+///    normal of the face that the method has darken it;
 ///  - unexplained.
 Wrong kind_of_exact(const ExactPicture& picture, std::size_t block, int at, Truth shown);
 

@@ -9,9 +9,8 @@
 // A triangle darkens a sample when
 //   1. it covers the sample as the light sees both: exact edge functions on a grid of 2^28 steps over the
 //      view (raster/coverage.h), so that a closed mesh has no cracks;
-//   2. the sample lies behind the triangle's plane by more than what is uncertain of its own place, and is
-//   not
-//      nearer to the light than the triangle's nearest corner;
+//   2. the sample lies behind the triangle's plane by more than what is uncertain of its own place, and
+//      is not nearer to the light than the triangle's nearest corner;
 //   3. it is not of the sample's own planar face.
 //
 // What is uncertain of a sample. Its position is put back onto its face's plane in doubles, but that it is

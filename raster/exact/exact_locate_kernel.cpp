@@ -2,20 +2,11 @@
 // stand together before the light in the order in which they come. See exact_ref.cpp for the meaning of each
 // step.
 
+#include "raster/cube_lanes.h"
 #include "raster/exact/exact_lanes.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {
-
-OBSCURA_INLINE I32 cube_faces(const Vec3x16& d) {
-    const F32 ax = abs(d.x), ay = abs(d.y), az = abs(d.z), zero = splat(0.0f);
-    const auto face = [&](const F32& along, std::int32_t positive) {
-        return select(less_equal(zero, along), splat(positive), splat(positive + 1));
-    };
-    const Mask x_largest = less_equal(ay, ax) & less_equal(az, ax);
-    const Mask y_largest = less_equal(az, ay);
-    return select(x_largest, face(d.x, 0), select(y_largest, face(d.y, 2), face(d.z, 4)));
-}
 
 OBSCURA_INLINE F64 row(const double (&m)[4], const F64& x, const F64& y, const F64& z) {
     return (splat(m[0]) * x + splat(m[1]) * y) + (splat(m[2]) * z + splat(m[3]));

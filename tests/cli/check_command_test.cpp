@@ -61,7 +61,7 @@ file = "out_####.png"
           "light     sun: directional, 1 compressed shadow map of 512 x 512, texels of ",
           "          compressed: 'resolution' is of maps\n", "          auto: a texel spans 0.",
           "light     moon: directional, shadows of the picture's own samples, exact: 12 triangles to put in "
-          "order, up to 518400 samples to look up\n          exact: 48 frames; a tree pays from 350 on\n",
+          "order, up to 518400 samples to look up\n          exact: 48 frames; a tree pays from 50 on\n",
           "meshes    12 triangles, 24 vertices, 1 object, 1 closed and 0 open components", "\nok\n"}) {
         EXPECT_NE(report.find(line), std::string::npos) << line << "\nis not in\n" << report;
     }
