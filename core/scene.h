@@ -41,29 +41,41 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-enum class LightKind { directional, sun, point, spot };
+enum class LightKind { directional, sun, point, spot, area };
 
 /// Whether all of the light travels one way: it then has no position and reaches everywhere.
 constexpr bool is_parallel(LightKind kind) {
     return kind == LightKind::directional || kind == LightKind::sun;
 }
 
-/// How many square views a shadow map needs to see what the light sees: a point's, the faces of a cube.
+/// How many square views a shadow map needs to see what the light sees: the faces of a cube, where that may
+/// be anywhere.
 constexpr int shadow_view_count(LightKind kind) {
-    return kind == LightKind::point ? 6 : 1;
+    return kind == LightKind::point || kind == LightKind::area ? 6 : 1;
 }
+
+/// Outline of an area light: a rectangle, or the ellipse in it.
+enum class AreaShape { rectangle, disc };
 
 struct Light {
     std::string id;
     LightKind kind = LightKind::directional;
-    Vec3d direction{0, -1, 0};  ///< unit, the way the light travels (directional, sun, spot)
-    Vec3d position{0, 0, 0};    ///< metres (point, spot)
-    Vec3f color{1, 1, 1};  ///< irradiance in W/m^2 per channel on a facing surface (directional, sun), or
-                           ///< radiant intensity in W/sr per channel (point, spot)
+    Vec3d direction{0, -1, 0};  ///< unit, the way the light travels (directional, sun, spot; area: its normal)
+    Vec3d position{0, 0, 0};    ///< metres (point, spot; area: its middle)
+    Vec3f color{1, 1, 1};  ///< irradiance in W/m^2 per channel on a facing surface (directional, sun), radiant
+                           ///< intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
     double near_m = 0.05,
-           range_m = 100;        ///< point and spot: shadow depth range; light ends smoothly at range_m
+           range_m = 100;        ///< with a position: shadow depth range; light ends smoothly at range_m
     bool below_horizon = false;  ///< sun: contributes nothing
+    // How large it is. Shadows of what is none are hard.
+    double angular_diameter_deg = 0;  ///< directional, sun: full angle that it fills, uniformly bright
+    double radius_m = 0;              ///< point, spot: of a ball that looks like a uniform disc from anywhere
+    AreaShape shape = AreaShape::rectangle;  ///< area,
+    Vec3d across{1, 0, 0};                   ///< unit, along its width, at right angles to `direction`
+    double width_m = 1, height_m = 1;        ///< whole sides, or axes of the ellipse
+    bool two_sided = false;                  ///< also shines against `direction`
+    double part = 1;  ///< area: of its surface, shining from `position` (raster/light_samples.h)
     friend bool operator==(const Light&, const Light&) = default;
 };
 

@@ -33,10 +33,17 @@ ShadeLight shade_light_of(const Light& light, Vec3d eye) {
     ShadeLight s;
     set(s.to_light, to_float(-normalize(light.direction)));
     set(s.color, light.color);
-    if (light.kind == LightKind::point || light.kind == LightKind::spot) {
+    if (!is_parallel(light.kind)) {
         s.kind = light.kind == LightKind::point ? ShadeLightKind::point : ShadeLightKind::spot;
         set(s.position, to_float(light.position - eye));
         s.inv_range2 = static_cast<float>(1.0 / (light.range_m * light.range_m));
+    }
+    if (light.kind == LightKind::area) {
+        s.kind = ShadeLightKind::patch;
+        const double patch_m2 = area_m2(light) * light.part;
+        set(s.color, light.color * static_cast<float>(patch_m2));
+        s.radius2 = static_cast<float>(patch_m2 / num::pi);
+        s.two_sided = light.two_sided ? 1.0f : 0.0f;
     }
     if (light.kind == LightKind::spot) {
         const double outer = num::cos_deg(light.outer_cone_deg), inner = num::cos_deg(light.inner_cone_deg);
@@ -45,6 +52,10 @@ ShadeLight shade_light_of(const Light& light, Vec3d eye) {
         s.inv_cone = static_cast<float>(1.0 / std::max(inner - outer, 1e-6));
     }
     return s;
+}
+
+double area_m2(const Light& light) {
+    return light.width_m * light.height_m * (light.shape == AreaShape::disc ? num::pi / 4 : 1.0);
 }
 
 bool sheds_light(const Light& light) {

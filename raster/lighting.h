@@ -13,6 +13,9 @@ std::vector<ShadeMaterial> shade_materials(const std::vector<Material>& material
 /// `eye`: the point that positions are relative to.
 ShadeLight shade_light_of(const Light& light, Vec3d eye);
 
+/// Of an area light, one side, square metres.
+double area_m2(const Light& light);
+
 /// Whether the light contributes anything: not below the horizon, not black.
 bool sheds_light(const Light& light);
 

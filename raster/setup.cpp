@@ -196,7 +196,7 @@ class BlockSetup {
         }
         const std::int64_t area = static_cast<std::int64_t>(q.x - p.x) * (r.y - p.y) -
                                   static_cast<std::int64_t>(r.x - p.x) * (q.y - p.y);
-        if (area == 0) return;
+        if (area == 0 && !params_.keep_flat) return;
 
         // Y points down in map space, so what is counter-clockwise for the viewer has a negative area.
         const bool front = area < 0;

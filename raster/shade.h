@@ -35,16 +35,23 @@ struct ShadeMaterial {
     float unused[3];
 };
 
-enum class ShadeLightKind : std::int32_t { directional, point, spot };
+/// patch: a small piece of a surface that shines, at a point.
+enum class ShadeLightKind : std::int32_t { directional, point, spot, patch };
 
 /// A light, relative to the eye.
 struct ShadeLight {
     ShadeLightKind kind = ShadeLightKind::directional;
-    float to_light[3] = {0, 1, 0};  ///< directional: unit, against the light's way; spot: against its axis
-    float position[3] = {0, 0, 0};  ///< point, spot
-    float color[3] = {0, 0, 0};     ///< irradiance (directional) or radiant intensity
-    float inv_range2 = 0;           ///< point, spot: 1 / range_m^2
+    float to_light[3] = {0, 1, 0};  ///< directional: unit, against the light's way; spot: against its axis;
+                                    ///< patch: against its normal
+    float position[3] = {0, 0, 0};  ///< all but directional
+    float color[3] = {0, 0, 0};     ///< irradiance (directional) or radiant intensity, a patch's along its normal
+    float inv_range2 = 0;           ///< all but directional: 1 / range_m^2
     float cos_outer = -1, inv_cone = 1;  ///< spot: smoothstep over (cos - cos_outer) * inv_cone
+    /// patch: radius^2 of a disc as large. On its axis a disc of radiance L sends pi L R^2 / (r^2 + R^2), which
+    /// is never more than pi L, however near (J. H. Lambert, "Photometria", 1760; R. Siegel and J. Howell,
+    /// "Thermal Radiation Heat Transfer", configuration C-21); off it, about its cosine of that.
+    float radius2 = 0;
+    float two_sided = 0;  ///< patch: 1 shines both ways, 0 along its normal alone
 };
 
 /// Sky radiance by direction: ground below, a straight mix from horizon to zenith above.

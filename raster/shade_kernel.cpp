@@ -147,6 +147,11 @@ OBSCURA_INLINE Incident incident_light(const ShadeLight& light, const Vec3x16& p
         const F32 q = r2 * splat(light.inv_range2);
         const F32 window = max(one() - q * q, splat(0.0f));
         F32 power = (inv * inv) * (window * window);
+        if constexpr (kind == ShadeLightKind::patch) {
+            const F32 facing = dot(l, splat3(light.to_light));
+            const F32 back = (facing ^ splat(-0.0f)) * splat(light.two_sided);
+            power = (max(facing, back) / (r2 + splat(light.radius2))) * (window * window);
+        }
         if constexpr (kind == ShadeLightKind::spot) {
             const F32 cone =
                 (dot(l, splat3(light.to_light)) - splat(light.cos_outer)) * splat(light.inv_cone);
@@ -235,6 +240,8 @@ void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const flo
             return add_light<ShadeLightKind::point>(surface, light, visibility, shade);
         case ShadeLightKind::spot:
             return add_light<ShadeLightKind::spot>(surface, light, visibility, shade);
+        case ShadeLightKind::patch:
+            return add_light<ShadeLightKind::patch>(surface, light, visibility, shade);
     }
 }
 

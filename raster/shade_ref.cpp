@@ -139,6 +139,10 @@ Incident incident_light(const ShadeLight& light, Vec3f position) {
     const float q = r2 * light.inv_range2;
     const float window = lane_max(1.0f - q * q, 0.0f);
     float power = (inv * inv) * (window * window);
+    if (light.kind == ShadeLightKind::patch) {
+        const float facing = dot(l, vec(light.to_light));
+        power = (lane_max(facing, -facing * light.two_sided) / (r2 + light.radius2)) * (window * window);
+    }
     if (light.kind == ShadeLightKind::spot) {
         const float t =
             lane_min(lane_max((dot(l, vec(light.to_light)) - light.cos_outer) * light.inv_cone, 0.0f), 1.0f);

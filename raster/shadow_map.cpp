@@ -59,7 +59,7 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
 std::vector<LightView> lamp_views(const Light& light, const ShadowViewParams& params) {
     // What a kernel reaches beyond its receiver's texel, and one more.
     const int margin = params.filter_px / 2 + 1;
-    if (light.kind == LightKind::point) {
+    if (shadow_view_count(light.kind) == 6) {
         return cube_light_views(light.position, light.near_m, light.range_m, params.resolution, margin);
     }
     // Wider than the cone by the margin. Nothing is wider than 170 degrees; beyond, the cone's rim takes the

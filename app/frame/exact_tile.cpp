@@ -66,6 +66,12 @@ void ExactTile::run(const TileScene& scene, int column, int row, int first, int 
         }
     }
     const ExactPoints all = points();
+    if (scene.pass != nullptr && scene.pass->soft != nullptr) {
+        const Stopwatch watch;
+        work_.shadows(all, *scene.pass->soft, isa, lit_.data(), room / 16, work.exact_counts);
+        if (!work.lookup_s.empty()) work.lookup_s[0] += watch.seconds();
+        return;
+    }
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         if (!scene.lights[l].exact) continue;
         const Stopwatch watch;
@@ -86,6 +92,11 @@ ExactPoints ExactTile::points() const {
             of_point_.data(),
             covered_.data(),
             thin_.data()};
+}
+
+float ExactTile::widest_penumbra(const ExactLight& light, const ExactSpread& spread, float stop_px, Isa isa) {
+    ExactCounts counts;
+    return work_.widest_penumbra(points(), light, spread, stop_px, isa, counts);
 }
 
 void ExactTile::restore(int k, TileWork& work) const {
@@ -121,9 +132,9 @@ void ExactTilePool::give_back(std::unique_ptr<ExactTile> tile) {
 
 std::int64_t exact_tile_bytes(std::size_t lights) {
     constexpr std::int64_t samples = std::int64_t{frame_tile_side} * frame_tile_side * exact_samples_together;
-    // Depth, normal, triangle (twice), face and position of a sample, two masks, a bit for each light; 37
-    // bytes to look it up.
-    return samples * (7 * 4 + 3 * 8 + 37) + samples / 8 * static_cast<std::int64_t>(4 + 2 * lights);
+    // Depth, normal, triangle (twice), face and position of a sample, two masks and one for each light, a
+    // word for sixteen of them; 37 bytes to look it up.
+    return samples * (7 * 4 + 3 * 8 + 37) + samples / 4 * static_cast<std::int64_t>(2 + lights);
 }
 
 }  // namespace obscura

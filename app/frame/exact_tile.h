@@ -35,6 +35,9 @@ class ExactTile {
     void keep_block(const TileScene& scene, int k, int count, int first_row, const SurfaceBlock& block);
     ExactPoints points() const;
 
+    /// Width of the widest penumbra among the points, up to stop_px.
+    float widest_penumbra(const ExactLight& light, const ExactSpread& spread, float stop_px, Isa isa);
+
     /// Puts 0 for those of a block's samples that the light does not reach: of the k-th sample, from
     /// first_row on.
     void darken(std::size_t light, int k, int first_row, float* visibility) const;

@@ -90,8 +90,16 @@ void render_picture(const Scene& scene, const TileScene& tiles, const FrameOptio
     size_frame(scene.optics.enabled ? tiles.bins->region : crop, wanted, frame);
     // A pattern may take longer than the picture: half of the progress is its own.
     const bool has_glare = scene.optics.enabled && options.progress;
-    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 * share); };
+    const double picture_share = has_glare ? 0.5 : 1.0,
+                 first_share = picture_share / (1 + soft_passes(tiles));
+    if (options.progress) wanted.progress = [&](double share) { options.progress(first_share * share); };
     render_tiles(tiles, wanted, exec, frame);
+    if (options.progress) {
+        wanted.progress = [&](double share) {
+            options.progress(first_share + (picture_share - first_share) * share);
+        };
+    }
+    if (frame.complete) add_soft_lights(tiles, wanted, exec, frame);
     frame.stats.tiles_s = shade.seconds();
     if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 + 0.5 * share); };
     if (frame.complete) add_frame_glare(scene, wanted, exec, psf, frame);

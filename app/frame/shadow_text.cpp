@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace obscura {
 
 std::string size_text(std::int64_t bytes) {
@@ -37,6 +39,12 @@ std::string smaller_tree_text(const ShadowSettings& shadow) {
 std::string shadow_text(const LightShadowStats& s) {
     std::string out = fmt::format("  light {}: ", s.light);
     if (s.method == ShadowMethod::exact) {
+        if (s.samples > 1) out += fmt::format("{} points of it, ", s.samples);
+        if (s.penumbra_px > 0) {
+            const bool more = s.penumbra_px >= static_cast<float>(most_auto_samples);
+            out += fmt::format("penumbrae to {}{:.3g} pixels, ", more ? "more than " : "",
+                               std::min(s.penumbra_px, static_cast<float>(most_auto_samples)));
+        }
         return out +
                fmt::format("exact, {} triangles, {}{}; order {:.3f} s, samples {:.3f} s (all threads)\n",
                            s.casters, size_text(static_cast<std::int64_t>(s.bytes)), s.kept ? ", kept" : "",

@@ -14,6 +14,7 @@
 #include "core/file_output.h"
 #include "core/stopwatch.h"
 #include "filters/shadow_lookup.h"
+#include "raster/light_samples.h"
 #include "raster/lighting.h"
 
 namespace obscura {
@@ -234,6 +235,7 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
     std::size_t next = 0;
     for (TileLight& light : tiles.lights) {
         if (!casts_shadows(work.scene.lights[light.scene_light])) continue;
+        light.shadow = next;
         const LightShadow& shadow = work.cache.shadows[next++];
         if (shadow.light.shadow.method == ShadowMethod::exact) {
             light.exact = exact_light(shadow.light.light, shadow.exact, *tiles.mesh, tiles.rays);
@@ -246,6 +248,31 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
         light.pcf = pcf_light(shadow.light, std::span(shadow.trees), work.scene.camera.eye);
         if (shadow.light.shadow.filter == ShadowFilter::hierarchical) {
             filter_hierarchically(*light.pcf, tiles.rays);
+        }
+    }
+}
+
+/// Finds how many points of each soft light the pictures ask, and takes those that are asked for more than
+/// one out of the tiles' lights.
+void settle_soft_lights(const Work& work) {
+    for (std::size_t i = 0; i < work.cache.shadows.size(); ++i) {
+        LightShadow& shadow = work.cache.shadows[i];
+        if (!is_soft(shadow.light)) continue;
+        if (shadow.light.shadow.samples == auto_samples)
+            shadow.stats.penumbra_px = widest_penumbra(work.pictures, shadow, work.exec);
+        shadow.stats.samples = points_for_penumbra(shadow.light, shadow.stats.penumbra_px);
+        if (shadow.stats.samples == 1) continue;
+        for (TileScene& tiles : work.pictures) {
+            const auto at = std::find_if(tiles.lights.begin(), tiles.lights.end(),
+                                         [&](const TileLight& l) { return l.exact && l.shadow == i; });
+            SoftLight soft;
+            soft.scene_light = at->scene_light;
+            soft.shadow = i;
+            soft.whole = shadow.light.light;
+            soft.points = light_samples(soft.whole, shadow.stats.samples);
+            if (is_parallel(soft.whole.kind)) soft.middle = at->exact;
+            tiles.soft.push_back(std::move(soft));
+            tiles.lights.erase(at);
         }
     }
 }
@@ -295,6 +322,7 @@ bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& e
     if (!build_shadows(work)) return false;
     for (TileScene& tiles : pictures)
         give_to_tiles(work, tiles);
+    settle_soft_lights(work);
     stats.shadow_s = watch.seconds();
     return true;
 }

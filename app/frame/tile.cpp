@@ -116,6 +116,21 @@ void add_block(const ShadeBlock& shade, int first_row, bool first, TileWork& wor
     add(shade.b, work.b);
 }
 
+/// Adds a block of one sample, whose share of the pixel is `scale`, to what the frame has.
+void add_pixels(const TileRect& tile, int first_row, const TileWindow& window, float scale, bool shadow,
+                const TileWork& work, Frame& frame) {
+    for (int y = std::max(window.y0, first_row); y < std::min(window.y1, first_row + block_rows); ++y) {
+        for (int x = window.x0; x < window.x1; ++x) {
+            const int at = (y - first_row) * frame_tile_side + x;
+            if (!is_covered(work.surface, at)) continue;
+            const int px = tile.x0 + x - frame.x0, py = tile.y0 + y - frame.y0;
+            Vec3f& sum = frame.radiance.view()(px, py);
+            sum = sum + Vec3f{work.shade.r[at], work.shade.g[at], work.shade.b[at]} * scale;
+            if (shadow) frame.shadow(px, py) += work.shadow_sum[at] * scale;
+        }
+    }
+}
+
 }  // namespace
 
 TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosition sample, Isa isa,
@@ -151,7 +166,9 @@ void uncover_outside(int width, int rows, SurfaceBlock& surface) {
 void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool shadow, TileWork& work) {
     OBSCURA_DISPATCH(isa, shade_begin, work.surface, scene.materials.data(), scene.sky, scene.rays,
                      work.shade);
-    int with_shadow = 0;
+    // Of those too whose passes are still to come.
+    const float with_shadow =
+        scene.pass != nullptr ? scene.pass->shadow_lights : static_cast<float>(scene.shadow_lights());
     if (shadow) std::fill_n(work.shadow_sum, block_samples, 0.0f);
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         const TileLight& light = scene.lights[l];
@@ -165,13 +182,12 @@ void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool 
         OBSCURA_DISPATCH(isa, shade_light, work.surface, light.shade,
                          light.casts_shadows() ? work.visibility : nullptr, work.shade);
         if (!shadow || !light.casts_shadows()) continue;
-        ++with_shadow;
         for (int i = 0; i < block_samples; ++i)
             work.shadow_sum[i] += work.visibility[i];
     }
     if (!shadow) return;
     for (float& sum : work.shadow_sum)
-        sum = with_shadow == 0 ? 1.0f : sum / static_cast<float>(with_shadow);
+        sum = with_shadow == 0 ? 1.0f : sum / with_shadow;
 }
 
 std::int64_t render_tile(const TileScene& scene, int column, int row, const FrameOptions& options, Isa isa,
@@ -216,6 +232,24 @@ std::int64_t render_tile(const TileScene& scene, int column, int row, const Fram
                      1.0f / static_cast<float>(samples), isa, frame);
     }
     return covered;
+}
+
+void add_tile(const TileScene& scene, int column, int row, bool shadow, Isa isa, TileWork& work,
+              ExactTile& exact, Frame& frame) {
+    const auto samples = static_cast<int>(scene.pattern.size());
+    const float scale = 1.0f / static_cast<float>(samples);
+    for (int sample = scene.pass->first; sample < samples; sample += scene.pass->stride) {
+        const TileRect tile = tile_of(scene, column, row, scene.pattern[static_cast<std::size_t>(sample)]);
+        const TileWindow window = window_of(tile, frame);
+        const int begin_row = window.y0 / block_rows * block_rows;
+        exact.run(scene, column, row, sample, 1, begin_row, window.y1, isa, work);
+        exact.restore(0, work);
+        for (int first_row = begin_row; first_row < window.y1; first_row += block_rows) {
+            block_surface(scene, tile, first_row, isa, work);
+            block_shade(scene, {&exact, 0, first_row}, isa, shadow, work);
+            add_pixels(tile, first_row, window, scale, shadow, work, frame);
+        }
+    }
 }
 
 }  // namespace obscura

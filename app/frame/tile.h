@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/frame/frame.h"
+#include "app/frame/soft_light.h"
 #include "app/scene/scene.h"
 #include "filters/pcf.h"
 #include "raster/depth_map.h"
@@ -30,6 +31,7 @@ struct TileLight {
     std::optional<PcfLight> pcf;
     std::optional<ExactLight> exact;
     std::size_t scene_light = 0;  ///< index into Scene::lights
+    std::size_t shadow = 0;       ///< and among those with shadows, when it casts some
 
     bool casts_shadows() const { return pcf || exact; }
 };
@@ -46,12 +48,21 @@ struct TileScene {
     std::vector<ShadeMaterial> materials;
     std::span<const Texture> textures;
     std::vector<TileLight> lights;
+    std::vector<SoftLight> soft;     ///< lights with a size, which are not among `lights`
+    const SoftPass* pass = nullptr;  ///< the tiles add what `lights` shed to a picture that is there
     ShadeSky sky;
     std::span<const SamplePosition> pattern;
     bool textured = false;  ///< some material has a texture
 
     /// Whether the pixel is the picture's, not one of its margin.
     bool in_picture(int x, int y) const { return x >= 0 && y >= 0 && x < view.width && y < view.height; }
+
+    /// Lights that Frame::shadow is the mean of.
+    int shadow_lights() const {
+        const auto own =
+            std::count_if(lights.begin(), lights.end(), [](const TileLight& l) { return l.casts_shadows(); });
+        return static_cast<int>(own) + static_cast<int>(soft.size());
+    }
 
     bool has_exact() const {
         return std::any_of(lights.begin(), lights.end(),
@@ -132,5 +143,9 @@ void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool 
 /// for exact shadows, needed where a light has some.
 std::int64_t render_tile(const TileScene& scene, int column, int row, const FrameOptions& options, Isa isa,
                          TileWork& work, ExactTile* exact, Frame& frame);
+
+/// A pass (scene.pass): adds what its lights shed to the tile's pixels, and to frame.shadow.
+void add_tile(const TileScene& scene, int column, int row, bool shadow, Isa isa, TileWork& work,
+              ExactTile& exact, Frame& frame);
 
 }  // namespace obscura

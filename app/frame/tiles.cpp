@@ -75,7 +75,11 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
         const int column = column0 + static_cast<int>(i) % columns,
                   row = row0 + static_cast<int>(i) / columns;
         std::unique_ptr<ExactTile> exact = has_exact ? pool.take() : nullptr;
-        covered[i] = render_tile(scene, column, row, options, exec.isa, work, exact.get(), frame);
+        if (scene.pass != nullptr) {
+            add_tile(scene, column, row, options.shadow, exec.isa, work, *exact, frame);
+        } else {
+            covered[i] = render_tile(scene, column, row, options, exec.isa, work, exact.get(), frame);
+        }
         counts[i] = work.exact_counts;
         if (exact) pool.give_back(std::move(exact));
         meter.tile_done();
@@ -85,13 +89,13 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
         frame.stats.covered_samples += n;
     for (const ExactCounts& n : counts)
         frame.stats.exact += n;
-    std::size_t shadow = 0;
     for (std::size_t l = 0; l < lights; ++l) {
         if (!scene.lights[l].casts_shadows()) continue;
-        double& sum = frame.stats.lights[shadow++].lookup_s;
+        double& sum = frame.stats.lights[scene.lights[l].shadow].lookup_s;
         for (std::size_t i = 0; i < tiles; ++i)
             sum += lookup_s[i * lights + l];
     }
+    if (scene.pass != nullptr) return;
     frame.stats.samples = static_cast<std::int64_t>(tiles) * frame_tile_side * frame_tile_side *
                           static_cast<std::int64_t>(scene.pattern.size());
 }

@@ -48,6 +48,13 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                        "Maps: moves receivers on open surfaces towards the light; only receivers "
                        "= \"any\" may need it. 0 when not given.")
                 .in({0, 100})),
+        count_or_word_row(
+            &ShadowSettings::samples, "auto", auto_samples,
+            integer_key("samples",
+                        "Exact, of a light with a size: how many points of it each pixel asks, shared out among "
+                        "the pixel's own samples; 1 is its middle, whose shadow is hard. \"auto\", the default: "
+                        "as many as the widest penumbra in the picture is pixels wide, 256 at most.")
+                .one_of({1, 4, 16, 64, 256, 1024})),
         word_row_if_given(&ShadowSettings::receivers, receivers_words, "receivers",
                           "As in [render], whose value is the default."),
         word_row_if_given(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/scene/build.h"
 #include "app/scene/key_ranges.h"
@@ -37,24 +38,36 @@ constexpr Vec3d clear_air{0.12, 0.19, 0.31};
 /// The years of the solar model's dates, is_solar_date().
 constexpr Range solar_years{1800, 2200};
 
+/// How large a disc the light fills in the sky.
+KeyRows<Light> disc_rows(double usual_deg) {
+    return {
+        key_row(&Light::angular_diameter_deg,
+                number_key("angular_diameter_deg",
+                           "Angle that the light fills in the sky, a disc equally bright everywhere: what "
+                           "makes penumbrae. 0: shadows are hard.")
+                    .in({0, 90})
+                    .or_else(usual_deg))};
+}
+
 // --- directional
 
 KeyRows<Light> directional_rows() {
-    return {
-        {number_key("azimuth_deg", "Where the light comes from, clockwise from north: 90 is east.")
-             .in(turns)
-             .need()
-             .animate()},
-        {number_key("elevation_deg", "Height above the horizon of where the light comes from.")
-             .in({-90, 90})
-             .need()
-             .animate()},
-        key_row(&Light::color,
-                vec3_or_number_key("irradiance_w_m2", "On a surface that faces the light, per channel.")
-                    .in(brightness)
-                    .or_else(Vec3d{3, 3, 3})
-                    .animate()),
-    };
+    return disc_rows(0) +
+           KeyRows<Light>{
+               {number_key("azimuth_deg", "Where the light comes from, clockwise from north: 90 is east.")
+                    .in(turns)
+                    .need()
+                    .animate()},
+               {number_key("elevation_deg", "Height above the horizon of where the light comes from.")
+                    .in({-90, 90})
+                    .need()
+                    .animate()},
+               key_row(&Light::color, vec3_or_number_key("irradiance_w_m2",
+                                                         "On a surface that faces the light, per channel.")
+                                          .in(brightness)
+                                          .or_else(Vec3d{3, 3, 3})
+                                          .animate()),
+           };
 }
 
 void finish_directional(const SceneTable& table, Light& light) {
@@ -64,33 +77,34 @@ void finish_directional(const SceneTable& table, Light& light) {
 // --- sun
 
 KeyRows<Light> sun_rows() {
-    return {
-        {number_key("latitude_deg", "North is positive.").in({-90, 90}).need()},
-        {number_key("longitude_deg", "East is positive.").in({-180, 180}).need()},
-        {date_time_key("time",
-                       "Date and time with offset from UTC, as in 2026-06-21T18:00:00+02:00. A "
-                       "leap second (60) is the first second of the next minute.")
-             .in(solar_years)
-             .need()
-             .animate()},
-        {number_key(
-             "extraterrestrial_w_m2",
-             "Irradiance per channel above the atmosphere, in the scene's scale. What arrives is dimmed and "
-             "reddened by clear air: exp(-depth * air mass), with depths 0.12, 0.19, 0.31 for red, green, "
-             "blue "
-             "and the air mass of Kasten and Young (1989).")
-             .in(brightness)
-             .or_else(5.0)
-             .animate()},
-        key_row_if_given(
-            &Light::color,
-            vec3_or_number_key(
-                "irradiance_w_m2",
-                "Instead of that: what arrives on a surface that faces the sun. Below the horizon there is "
-                "no sun either way.")
-                .in(brightness)
-                .animate()),
-    };
+    return disc_rows(0.53) +
+           KeyRows<Light>{
+               {number_key("latitude_deg", "North is positive.").in({-90, 90}).need()},
+               {number_key("longitude_deg", "East is positive.").in({-180, 180}).need()},
+               {date_time_key("time",
+                              "Date and time with offset from UTC, as in 2026-06-21T18:00:00+02:00. A "
+                              "leap second (60) is the first second of the next minute.")
+                    .in(solar_years)
+                    .need()
+                    .animate()},
+               {number_key("extraterrestrial_w_m2",
+                           "Irradiance per channel above the atmosphere, in the scene's scale. What arrives "
+                           "is dimmed and "
+                           "reddened by clear air: exp(-depth * air mass), with depths 0.12, 0.19, 0.31 for "
+                           "red, green, "
+                           "blue "
+                           "and the air mass of Kasten and Young (1989).")
+                    .in(brightness)
+                    .or_else(5.0)
+                    .animate()},
+               key_row_if_given(&Light::color,
+                                vec3_or_number_key("irradiance_w_m2",
+                                                   "Instead of that: what arrives on a surface that faces "
+                                                   "the sun. Below the horizon there is "
+                                                   "no sun either way.")
+                                    .in(brightness)
+                                    .animate()),
+           };
 }
 
 void finish_sun(const SceneTable& table, Light& light) {
@@ -113,18 +127,32 @@ void finish_sun(const SceneTable& table, Light& light) {
 
 // --- point
 
-KeyRows<Light> point_rows() {
+/// Of all that have a position.
+KeyRows<Light> lamp_rows() {
     return {
-        key_row(&Light::position, vec3_key("position_m", "Position.").in(anywhere).need().animate()),
-        key_row(&Light::color, vec3_or_number_key("intensity_w_sr", "Radiant intensity, per channel.")
-                                   .in(brightness)
-                                   .need()
-                                   .animate()),
+        key_row(&Light::position,
+                vec3_key("position_m", "Position; of an area, its middle.").in(anywhere).need().animate()),
         key_row(&Light::near_m,
                 number_key("near_m", "Nothing nearer to the light than this casts a shadow.").in(positive)),
         key_row(&Light::range_m,
                 number_key("range_m", "The light ends smoothly at this distance.").in(positive)),
     };
+}
+
+KeyRows<Light> point_rows() {
+    return lamp_rows() +
+           KeyRows<Light>{
+               key_row(&Light::color, vec3_or_number_key("intensity_w_sr", "Radiant intensity, per channel.")
+                                          .in(brightness)
+                                          .need()
+                                          .animate()),
+               key_row(
+                   &Light::radius_m,
+                   number_key("radius_m",
+                              "Of the ball that shines, which looks like a disc equally bright everywhere "
+                              "from any side. 0: shadows are hard.")
+                       .in({0, 1e6})),
+           };
 }
 
 void check_point(const SceneTable& light, const Sources& sources) {
@@ -171,6 +199,49 @@ void check_spot(const SceneTable& light, const Sources& sources) {
     }
 }
 
+// --- area
+
+constexpr Word<AreaShape> area_shape_words[] = {{"rectangle", AreaShape::rectangle},
+                                                {"disc", AreaShape::disc}};
+
+KeyRows<Light> area_rows() {
+    return lamp_rows() +
+           KeyRows<Light>{
+               {vec3_key("look_at_m", "Point straight before the light.").in(anywhere).need().animate()},
+               {number_key("roll_deg",
+                           "Turns it about the way it looks. At 0 its height is as upright as can be; of one "
+                           "that looks straight up or down, it points north.")
+                    .in(turns)
+                    .or_else(0.0)
+                    .animate()},
+               word_row(&Light::shape, area_shape_words, "shape", "disc: the ellipse in the rectangle."),
+               key_row(&Light::width_m, number_key("width_m", "Whole width.").in(positive)),
+               key_row(&Light::height_m, number_key("height_m", "Whole height.").in(positive)),
+               key_row(&Light::color, vec3_or_number_key("radiance_w_m2_sr", "Radiance, per channel.")
+                                          .in(brightness)
+                                          .need()
+                                          .animate()),
+               key_row(&Light::two_sided, boolean_key("two_sided", "Shines to its back, too.")),
+           };
+}
+
+void finish_area(const SceneTable& table, Light& light) {
+    light.direction = normalize(vec3(table, "look_at_m") - light.position);
+    const double upright = std::fabs(light.direction.y);
+    const Vec3d up = upright < 0.999999 ? Vec3d{0, 1, 0} : Vec3d{0, 0, -1};
+    const Vec3d across = normalize(cross(light.direction, up)), above = cross(across, light.direction);
+    const double roll = number(table, "roll_deg");
+    light.across = normalize(across * num::cos_deg(roll) + above * num::sin_deg(roll));
+}
+
+void check_area(const SceneTable& light, const Sources& sources) {
+    check_point(light, sources);
+    if (length(vec3(light, "position_m") - vec3(light, "look_at_m")) < least_distance_m) {
+        fail_at(place_of(light, "look_at_m"), sources,
+                fmt::format("'look_at_m' is nearer to 'position_m' than {:g} m", least_distance_m));
+    }
+}
+
 }  // namespace
 
 const std::vector<LightKindRow>& light_kinds() {
@@ -181,6 +252,11 @@ const std::vector<LightKindRow>& light_kinds() {
          finish_sun, nullptr},
         {LightKind::point, "point", "Light from a point to all sides.", point_rows(), nullptr, check_point},
         {LightKind::spot, "spot", "Light from a point into a cone.", spot_rows(), finish_spot, check_spot},
+        {LightKind::area, "area",
+         "Light from a rectangle or an ellipse, as bright from wherever it is seen. It is not seen itself: "
+         "give "
+         "a mesh there the same emission.",
+         area_rows(), finish_area, check_area},
     };
     return all;
 }

@@ -17,6 +17,7 @@ using Sources = std::vector<std::string>;
 
 constexpr const char* compressed_keys[] = {"scope",  "filter",     "max_magnification",
                                            "layout", "top_levels", "cache"};
+constexpr const char* exact_keys[] = {"samples"};
 constexpr const char* map_keys[] = {"resolution", "filter_px", "normal_offset_texels"};
 constexpr std::int64_t dense_default = 4096, most_dense_filter_px = 5;
 
@@ -45,15 +46,31 @@ bool has_keyframes(const SceneTable& root, const SceneTable& light) {
                        [&](const SceneTable* k) { return text(*k, "id") == text(light, "id"); });
 }
 
+/// Whether the light has penumbrae, which maps of its middle do not show.
+bool is_sized(const SceneTable& light) {
+    const auto above_zero = [&](const char* key) { return light.has(key) && number(light, key) > 0; };
+    return above_zero("angular_diameter_deg") || above_zero("radius_m") || text(light, "type") == "area";
+}
+
+/// Whether shadows of that size are wanted.
+bool is_soft(const SceneTable& light, const SceneTable& settings) {
+    const SceneEntry* samples = settings.find("samples");
+    const auto* count = samples == nullptr ? nullptr : std::get_if<std::int64_t>(&samples->value.data);
+    return is_sized(light) && (count == nullptr || *count > 1);
+}
+
 /// What shadows a light gets that names no method. Keys that only maps have ask for one. Else one frame, or
-/// frames in which the light or what it shines on changes, have their own samples shaded; a tree pays where
-/// both stand still for long.
-ShadowMethod planned_method(const SceneTable& settings, bool cached, bool light_moves, int frames) {
+/// frames in which the light or what it shines on changes, or a light with a size, have their own samples
+/// shaded; a tree pays where both stand still for long.
+ShadowMethod planned_method(const SceneTable& settings, bool cached, bool light_moves, bool soft,
+                            int frames) {
+    if (settings.has("samples")) return ShadowMethod::exact;
     if (has_any(settings, compressed_keys) || has_any(settings, map_keys) || cached ||
         settings.has("receivers")) {
         return ShadowMethod::compressed;
     }
-    return light_moves || frames < tree_break_even_frames ? ShadowMethod::exact : ShadowMethod::compressed;
+    return soft || light_moves || frames < tree_break_even_frames ? ShadowMethod::exact
+                                                                  : ShadowMethod::compressed;
 }
 
 void complete_map(SceneTable& settings) {
@@ -147,7 +164,7 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
         // Dumped documents name it, so that their planner is not asked again.
         if (!settings.has("method")) {
             const ShadowMethod method = planned_method(settings, cache != nullptr, has_keyframes(root, light),
-                                                       range ? range->count() : 1);
+                                                       is_soft(light, settings), range ? range->count() : 1);
             settings.set("method", value_of(name_of(shadow_method_words, method)));
             // A tree for many frames serves all of them.
             if (method == ShadowMethod::compressed && !has_any(settings, compressed_keys) &&
@@ -160,8 +177,12 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
         const ShadowMethod method = value_named(shadow_method_words, text(settings, "method"));
         if (method != ShadowMethod::compressed)
             refuse_keys(settings, compressed_keys, "method = \"compressed\"", sources);
-        if (method == ShadowMethod::exact)
+        if (method == ShadowMethod::exact) {
             refuse_keys(settings, map_keys, "method = \"map\" or \"compressed\"", sources);
+            if (is_sized(light)) set_default(settings, "samples", value_of("auto"));
+        } else {
+            refuse_keys(settings, exact_keys, "method = \"exact\"", sources);
+        }
         if (method == ShadowMethod::map || method == ShadowMethod::compressed) complete_map(settings);
         if (method == ShadowMethod::map) complete_dense(settings, sources);
         if (method == ShadowMethod::compressed) complete_compressed(settings, cache, sources);
@@ -191,6 +212,7 @@ std::string shadow_method_reason(const SceneTable& root, const SceneTable& light
                            tree_break_even_frames, frames);
     }
     if (frames == 1) return "one frame";
+    if (is_soft(light, settings)) return "the light has a size, which maps of its middle do not show";
     if (has_keyframes(root, light)) return "the light has keyframes";
     return fmt::format("{} frames; a tree pays from {} on", frames, tree_break_even_frames);
 }

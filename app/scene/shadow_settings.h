@@ -35,6 +35,10 @@ inline constexpr Word<Receivers> receivers_words[] = {{"any", Receivers::any},
 /// (raster/exact/README.md has the measurements).
 constexpr int tree_break_even_frames = 50;
 
+/// How many points of a light with a size are asked: as many as its widest penumbra needs; up to
+/// most_auto_samples.
+constexpr int auto_samples = 0, most_auto_samples = 256;
+
 constexpr int auto_resolution = 0;
 constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;
 
@@ -47,6 +51,7 @@ struct ShadowSettings {
     int filter_px = 3;  ///< PCF kernel side in texels, odd: to 5 (map) or 15 (compressed)
     Receivers receivers = Receivers::static_only;
     double normal_offset_texels = 0;  ///< of receivers on open components only
+    int samples = auto_samples;       ///< exact: points of a light with a size, 1 or a power of four
     // Compressed only.
     ShadowScope scope = ShadowScope::frame;
     ShadowFilter filter = ShadowFilter::pcf;

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/vec_arrays.h"
+#include "raster/light_samples.h"
 #include "raster/shadow_map.h"
 #include "raster/view.h"
 
@@ -230,6 +231,8 @@ std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const E
         setup.only_casters = true;
         setup.centre_samples_only = false;
         setup.depth_planes = false;
+        // Another part of a light with a size sees what its middle sees along its plane.
+        setup.keep_flat = has_size(light);
         setup_triangles(mesh, view, setup, exec, scratch);
         Builder(mesh, light, exec, scratch).run(casters);
     }

@@ -4,20 +4,12 @@
 
 #include "core/scalar_lanes.h"
 #include "core/vec.h"
+#include "raster/exact/exact_question.h"
 #include "raster/exact/exact_shadow.h"
 #include "raster/view.h"
 
 namespace obscura::ref {
 namespace {
-
-/// A sample as triangles see it.
-struct Place {
-    Vec3d p;  ///< world space
-    std::int32_t x = 0, y = 0;
-    float z = 0, rounding = 0;
-    std::uint32_t face = 0;
-    int point = 0;
-};
 
 double row(const double (&m)[4], Vec3d p) {
     return (m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3]);
@@ -56,6 +48,8 @@ bool is_snapped(const CasterTriangle& t, const ExactLight& light, const ExactPoi
     return behind <= static_cast<double>(rounding + exact_snap(light, p, g, t.n));
 }
 
+}  // namespace
+
 bool darkens(const CasterTriangle& t, float z_low, const ExactLight& light, const ExactPoints& points,
              const Place& s) {
     if (t.face == s.face || !(z_low <= s.z) || !covers(t, s)) return false;
@@ -63,6 +57,8 @@ bool darkens(const CasterTriangle& t, float z_low, const ExactLight& light, cons
     return !(height >= -static_cast<double>(s.rounding)) &&
            !is_snapped(t, light, points, s.point, -height, s.rounding);
 }
+
+namespace {
 
 bool may_hold(const CasterBoxes& b, int k, const Place& s) {
     return b.x_low[k] <= s.x && s.x <= b.x_high[k] && b.y_low[k] <= s.y && s.y <= b.y_high[k] &&
@@ -104,13 +100,7 @@ Vec3f towards(const ExactLight& light, Vec3f p) {
     return Vec3f{light.position[0], light.position[1], light.position[2]} - p;
 }
 
-/// What a point asks.
-struct Question {
-    bool asks = false;
-    bool looks = false;  ///< else lit: before the near plane, or beyond everything that casts
-    int view = 0;
-    Place place;
-};
+}  // namespace
 
 Question question(const ExactPoints& points, const ExactLight& light, int at) {
     Question q;
@@ -146,8 +136,6 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
     place.face = points.face[at];
     return q;
 }
-
-}  // namespace
 
 void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,
                   std::uint32_t* lit, ExactCounts& /*counts*/) noexcept {

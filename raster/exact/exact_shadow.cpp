@@ -49,6 +49,30 @@ void ExactWork::shadows(const ExactPoints& points, const ExactLight& light, Isa 
     OBSCURA_DISPATCH(isa, exact_darken, points, light, samples_, order_.data(), lit, counts);
 }
 
+void ExactWork::shadows(const ExactPoints& points, const ExactSoft& light, Isa isa, std::uint32_t* lit,
+                        std::size_t stride, ExactCounts& counts) {
+    for (std::int32_t p = 0; p < 16 * light.groups; ++p) {
+        if (p % 16 < light.parts[p / 16].count)
+            std::fill_n(lit + static_cast<std::size_t>(p) * stride, points.count / 16, 0u);
+    }
+    OBSCURA_DISPATCH(isa, exact_reach, points, light.middle, light.spread, samples_);
+    if (samples_.count == 0) return;
+    sort_samples(1);
+    OBSCURA_DISPATCH(isa, exact_soft, points, light, samples_, order_.data(), lit,
+                     static_cast<std::int32_t>(stride), counts);
+}
+
+float ExactWork::widest_penumbra(const ExactPoints& points, const ExactLight& light,
+                                 const ExactSpread& spread, float stop_px, Isa isa, ExactCounts& counts) {
+    float widest_px = 0;
+    OBSCURA_DISPATCH(isa, exact_reach, points, light, spread, samples_);
+    if (samples_.count == 0) return widest_px;
+    sort_samples(light.views);
+    OBSCURA_DISPATCH(isa, exact_widest, points, light, spread, samples_, order_.data(), stop_px, widest_px,
+                     counts);
+    return widest_px;
+}
+
 /// View by view along a Morton curve of square cells, of which the longer side of what the samples span has
 /// up to 2^cell_bits.
 void ExactWork::sort_samples(int views) {

@@ -9,6 +9,7 @@
 #include "core/isa.h"
 #include "core/mesh.h"
 #include "raster/exact/exact.h"
+#include "raster/exact/exact_soft.h"
 #include "raster/gbuffer.h"
 
 namespace obscura {
@@ -24,6 +25,15 @@ class ExactWork {
     /// grid. The same bits for any isa; counts are the same for all but `ref`, which asks sample by sample.
     void shadows(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
                  ExactCounts& counts);
+
+    /// The same for each part of a light with a size: part p's bits are lit[p * stride + i / 16].
+    void shadows(const ExactPoints& points, const ExactSoft& light, Isa isa, std::uint32_t* lit,
+                 std::size_t stride, ExactCounts& counts);
+
+    /// Width of the widest penumbra among the points, pixels, when it is less than stop_px; else that or
+    /// more. `light`: the middle of a light that has any position.
+    float widest_penumbra(const ExactPoints& points, const ExactLight& light, const ExactSpread& spread,
+                          float stop_px, Isa isa, ExactCounts& counts);
 
     /// Of the last call: these samples, and in which order; sixteen neighbours of it were taken together.
     const ExactSamples& samples() const { return samples_; }

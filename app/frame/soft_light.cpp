@@ -1,0 +1,197 @@
+#include "app/frame/soft_light.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include "app/frame/exact_tile.h"
+#include "app/frame/light_shadow.h"
+#include "app/frame/tiles.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "raster/depth_tile.h"
+#include "raster/exact/casters.h"
+#include "raster/exact/soft_casters.h"
+#include "raster/light_samples.h"
+#include "raster/lighting.h"
+
+namespace obscura {
+namespace {
+
+constexpr int most_together = 64;
+constexpr std::int64_t together_bytes = std::int64_t{192} << 20;
+
+/// Points that are asked as one, and what they hold.
+int points_as_one(LightKind kind) {
+    return is_parallel(kind) ? 16 : 1;
+}
+std::int64_t as_one_bytes(const MeshSize& mesh, LightKind kind) {
+    return is_parallel(kind) ? soft_parts_bytes(mesh.vertices) : casters_bytes(mesh.triangles * 5 / 4);
+}
+
+/// Samples of a pixel that ask other points than their neighbours do. Points that are asked as one cost no
+/// more than one of them.
+int strata(const SoftLight& soft, const TileScene& tiles) {
+    const auto points = static_cast<int>(soft.points.size()), as_one = points_as_one(soft.points[0].kind);
+    return std::clamp(points / as_one, 1, static_cast<int>(tiles.pattern.size()));
+}
+
+int passes_of_stratum(const SoftLight& soft, const TileScene& tiles) {
+    const auto points = static_cast<int>(soft.points.size()) / strata(soft, tiles);
+    const int together = soft_points_together(size_of(*tiles.mesh), soft.points[0].kind);
+    return (points + together - 1) / together;
+}
+
+/// The tiles with nothing that shines but what a pass adds.
+TileScene dark(const TileScene& tiles) {
+    TileScene t = tiles;
+    t.lights.clear();
+    t.soft.clear();
+    t.sky.ambient = t.sky.background = 0;
+    for (ShadeMaterial& m : t.materials)
+        std::fill_n(m.emission, 3, 0.0f);
+    return t;
+}
+
+/// One pass: of the points stratum, stratum + m ... of the light, `count` from the begin-th on.
+class Pass {
+  public:
+    Pass(const TileScene& tiles, const SoftLight& soft, int stratum, int begin, int count)
+        : light_(soft), tiles_(dark(tiles)) {
+        const int m = strata(soft, tiles), of_sample = static_cast<int>(soft.points.size()) / m;
+        for (int i = begin; i < begin + count; ++i)
+            points_.push_back(soft.points[static_cast<std::size_t>(stratum + i * m)]);
+        pass_.light = &soft;
+        pass_.first = stratum;
+        pass_.stride = m;
+        pass_.shadow_lights = static_cast<float>(tiles.shadow_lights() * of_sample);
+        tiles_.pass = &pass_;
+    }
+
+    void run(const FrameOptions& options, const Exec& exec, TriangleSetup& scratch, Frame& frame) {
+        const Stopwatch watch;
+        const bool done = light_.middle ? see_vertices(exec) : order_casters(options, exec, scratch);
+        frame.complete = frame.complete && done;
+        frame.stats.lights[light_.shadow].build.build_s += watch.seconds();
+        if (done) render_tiles(tiles_, options, exec, frame);
+    }
+
+  private:
+    /// Parallel light: what the middle's casters do not tell.
+    bool see_vertices(const Exec& exec) {
+        parts_ = soft_parts(*tiles_.mesh, points_, exec);
+        soft_ = exact_soft_light(light_.whole, *light_.middle, parts_, *tiles_.mesh);
+        pass_.soft = &soft_;
+        for (const Light& point : points_)
+            add(point, *light_.middle);
+        return true;
+    }
+
+    /// Else each point has casters of its own. False when cancelled.
+    bool order_casters(const FrameOptions& options, const Exec& exec, TriangleSetup& scratch) {
+        for (const Light& point : points_) {
+            casters_.push_back(build_casters(*tiles_.mesh, point, exec, scratch, options.cancel));
+            if (casters_.back().empty()) return false;
+            add(point, exact_light(point, casters_.back(), *tiles_.mesh, tiles_.rays));
+        }
+        return true;
+    }
+
+    void add(const Light& point, const ExactLight& exact) {
+        TileLight& to = tiles_.lights.emplace_back();
+        to.scene_light = light_.scene_light;
+        to.shadow = light_.shadow;
+        to.exact = exact;
+        to.shade = shade_light_of(point, {tiles_.rays.eye[0], tiles_.rays.eye[1], tiles_.rays.eye[2]});
+        // Of a pixel's samples only one in `stride` asks this point.
+        for (float& c : to.shade.color)
+            c *= static_cast<float>(pass_.stride);
+    }
+
+    const SoftLight& light_;
+    std::vector<Light> points_;
+    std::vector<std::vector<Casters>> casters_;
+    SoftParts parts_;
+    ExactSoft soft_;
+    TileScene tiles_;
+    SoftPass pass_;
+};
+
+}  // namespace
+
+bool is_soft(const SceneLight& light) {
+    return light.shadow.method == ShadowMethod::exact && light.shadow.samples != 1 && has_size(light.light);
+}
+
+int points_for_penumbra(const SceneLight& light, float widest_px) {
+    if (!is_soft(light)) return 1;
+    if (light.shadow.samples != auto_samples) return light.shadow.samples;
+    // Penumbrae narrower than a pixel are what its samples make of a hard edge.
+    if (widest_px < 1) return 1;
+    int points = 16;
+    while (points < most_auto_samples && static_cast<float>(points) < widest_px)
+        points *= 4;
+    return points;
+}
+
+float widest_penumbra(std::span<const TileScene> pictures, const LightShadow& shadow, const Exec& exec) {
+    float widest = 0;
+    for (const TileScene& tiles : pictures) {
+        const ExactLight light = exact_light(shadow.light.light, shadow.exact, *tiles.mesh, tiles.rays);
+        const ExactSpread spread = exact_spread(shadow.light.light, light);
+        const auto count =
+            static_cast<std::size_t>(tiles.bins->columns) * static_cast<std::size_t>(tiles.bins->rows);
+        std::vector<float> of_tile(count, 0.0f);
+        ExactTilePool pool(1);
+        parallel_for(count, exec, [&](std::size_t i) {
+            TileWork work;
+            std::unique_ptr<ExactTile> tile = pool.take();
+            tile->begin(1);
+            walk_blocks(tiles, i, {128, 128}, exec.isa, work, [&](const TileRect&, int first_row) {
+                tile->keep_block(tiles, 0, 1, first_row, work.surface);
+            });
+            of_tile[i] =
+                tile->widest_penumbra(light, spread, static_cast<float>(most_auto_samples), exec.isa);
+            pool.give_back(std::move(tile));
+        });
+        for (const float px : of_tile)
+            widest = std::max(widest, px);
+    }
+    return widest;
+}
+
+int soft_points_together(const MeshSize& mesh, LightKind kind) {
+    const std::int64_t bytes = std::max<std::int64_t>(as_one_bytes(mesh, kind), 1);
+    const int as_one = points_as_one(kind);
+    return as_one *
+           static_cast<int>(std::clamp<std::int64_t>(together_bytes / bytes, 1, most_together / as_one));
+}
+
+std::int64_t soft_pass_bytes(const MeshSize& mesh, LightKind kind) {
+    return soft_points_together(mesh, kind) / points_as_one(kind) * as_one_bytes(mesh, kind);
+}
+
+int soft_passes(const TileScene& tiles) {
+    int passes = 0;
+    for (const SoftLight& soft : tiles.soft)
+        passes += strata(soft, tiles) * passes_of_stratum(soft, tiles);
+    return passes;
+}
+
+void add_soft_lights(const TileScene& tiles, const FrameOptions& options, const Exec& exec, Frame& frame) {
+    const int passes = soft_passes(tiles);
+    int done = 0;
+    TriangleSetup scratch;
+    FrameOptions of_pass = options;
+    if (options.progress) of_pass.progress = [&](double share) { options.progress((done + share) / passes); };
+    for (const SoftLight& soft : tiles.soft) {
+        const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
+        const int together = soft_points_together(size_of(*tiles.mesh), soft.points[0].kind);
+        for (int stratum = 0; stratum < m; ++stratum) {
+            for (int begin = 0; begin < points && frame.complete; begin += together, ++done)
+                Pass(tiles, soft, stratum, begin, std::min(together, points - begin))
+                    .run(of_pass, exec, scratch, frame);
+        }
+    }
+}
+
+}  // namespace obscura
