@@ -31,13 +31,13 @@ std::int64_t as_one_bytes(const MeshSize& mesh, LightKind kind) {
 /// Samples of a pixel that ask other points than their neighbours do. Points that are asked as one cost no
 /// more than one of them.
 int strata(const SoftLight& soft, const TileScene& tiles) {
-    const auto points = static_cast<int>(soft.points.size()), as_one = points_as_one(soft.points[0].kind);
+    const auto points = static_cast<int>(soft.points.size()), as_one = points_as_one(soft.whole.kind);
     return std::clamp(points / as_one, 1, static_cast<int>(tiles.pattern.size()));
 }
 
 int passes_of_stratum(const SoftLight& soft, const TileScene& tiles) {
     const auto points = static_cast<int>(soft.points.size()) / strata(soft, tiles);
-    const int together = soft_points_together(size_of(*tiles.mesh), soft.points[0].kind);
+    const int together = soft_points_together(size_of(*tiles.mesh), soft.whole.kind);
     return (points + together - 1) / together;
 }
 
@@ -67,12 +67,13 @@ class Pass {
         tiles_.pass = &pass_;
     }
 
-    void run(const FrameOptions& options, const Exec& exec, TriangleSetup& scratch, Frame& frame) {
+    /// The tiles of the pass; null when cancelled. Adds to the seconds that making it takes.
+    const TileScene* make(const Exec& exec, const std::atomic<bool>* cancel, TriangleSetup& scratch,
+                          double& seconds) {
         const Stopwatch watch;
-        const bool done = light_.middle ? see_vertices(exec) : order_casters(options, exec, scratch);
-        frame.complete = frame.complete && done;
-        frame.stats.lights[light_.shadow].build.build_s += watch.seconds();
-        if (done) render_tiles(tiles_, options, exec, frame);
+        const bool done = light_.middle ? see_vertices(exec) : order_casters(exec, cancel, scratch);
+        seconds += watch.seconds();
+        return done ? &tiles_ : nullptr;
     }
 
   private:
@@ -87,9 +88,9 @@ class Pass {
     }
 
     /// Else each point has casters of its own. False when cancelled.
-    bool order_casters(const FrameOptions& options, const Exec& exec, TriangleSetup& scratch) {
+    bool order_casters(const Exec& exec, const std::atomic<bool>* cancel, TriangleSetup& scratch) {
         for (const Light& point : points_) {
-            casters_.push_back(build_casters(*tiles_.mesh, point, exec, scratch, options.cancel));
+            casters_.push_back(build_casters(*tiles_.mesh, point, exec, scratch, cancel));
             if (casters_.back().empty()) return false;
             add(point, exact_light(point, casters_.back(), *tiles_.mesh, tiles_.rays));
         }
@@ -177,21 +178,37 @@ int soft_passes(const TileScene& tiles) {
     return passes;
 }
 
+bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomic<bool>* cancel,
+                      std::span<LightShadowStats> stats,
+                      const std::function<bool(const TileScene& pass)>& visit) {
+    TriangleSetup scratch;
+    for (const SoftLight& soft : tiles.soft) {
+        const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
+        const int together = soft_points_together(size_of(*tiles.mesh), soft.whole.kind);
+        double& seconds = stats[soft.shadow].build.build_s;
+        for (int stratum = 0; stratum < m; ++stratum) {
+            for (int begin = 0; begin < points; begin += together) {
+                Pass pass(tiles, soft, stratum, begin, std::min(together, points - begin));
+                const TileScene* made = pass.make(exec, cancel, scratch, seconds);
+                if (made == nullptr || !visit(*made)) return false;
+            }
+        }
+    }
+    return true;
+}
+
 void add_soft_lights(const TileScene& tiles, const FrameOptions& options, const Exec& exec, Frame& frame) {
     const int passes = soft_passes(tiles);
     int done = 0;
-    TriangleSetup scratch;
     FrameOptions of_pass = options;
     if (options.progress) of_pass.progress = [&](double share) { options.progress((done + share) / passes); };
-    for (const SoftLight& soft : tiles.soft) {
-        const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
-        const int together = soft_points_together(size_of(*tiles.mesh), soft.points[0].kind);
-        for (int stratum = 0; stratum < m; ++stratum) {
-            for (int begin = 0; begin < points && frame.complete; begin += together, ++done)
-                Pass(tiles, soft, stratum, begin, std::min(together, points - begin))
-                    .run(of_pass, exec, scratch, frame);
-        }
-    }
+    const bool all =
+        walk_soft_passes(tiles, exec, options.cancel, frame.stats.lights, [&](const TileScene& pass) {
+            render_tiles(pass, of_pass, exec, frame);
+            ++done;
+            return frame.complete;
+        });
+    frame.complete = frame.complete && all;
 }
 
 }  // namespace obscura

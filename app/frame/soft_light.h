@@ -2,6 +2,8 @@
 // Lights with a size: many without, a few at a time. Pass after pass over the tiles adds what some of them
 // shed, and their casters are dropped, so that memory is that of a few however many there are.
 
+#include <atomic>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -52,6 +54,11 @@ std::int64_t soft_pass_bytes(const MeshSize& mesh, LightKind kind);
 
 /// How many passes the soft lights of the tiles take.
 int soft_passes(const TileScene& tiles);
+
+/// Calls visit() with each pass over the tiles, in order. False when cancelled.
+bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomic<bool>* cancel,
+                      std::span<LightShadowStats> stats,
+                      const std::function<bool(const TileScene& pass)>& visit);
 
 /// Adds to frame.radiance, and to frame.shadow where that is wanted, what the soft lights of the tiles shed.
 /// options.progress is told of each pass as a share of all.

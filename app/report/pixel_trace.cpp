@@ -38,6 +38,7 @@ class PixelStory {
         : scene_(scene), tiles_(tiles), cache_(cache), exec_(exec), work_(std::make_unique<TileWork>()) {}
 
     /// Runs every stage on the block that holds the pixel and tells of this one sample.
+    Vec3f soft_sample(const TileScene& pass, int x, int y, std::size_t sample);
     Vec3f sample(int x, int y, SamplePosition position);
 
     template <class... Args>
@@ -232,6 +233,33 @@ Vec3f PixelStory::sample(int x, int y, SamplePosition position) {
     return radiance(at);
 }
 
+/// What a pass adds to one sample, as add_tile() finds it.
+Vec3f PixelStory::soft_sample(const TileScene& pass, int x, int y, std::size_t sample) {
+    const Region& region = pass.bins->region;
+    const int column = (x - region.x0) / frame_tile_side, row = (y - region.y0) / frame_tile_side;
+    const TileRect tile = tile_visibility(pass, column, row, pass.pattern[sample], exec_.isa, *work_);
+    const int first_row = (y - tile.y0) / block_rows * block_rows;
+    const int at = (y - tile.y0 - first_row) * frame_tile_side + (x - tile.x0);
+    ExactTile exact(pass.lights.size());
+    exact.run(pass, column, row, static_cast<int>(sample), 1, first_row, first_row + block_rows, exec_.isa,
+              *work_);
+    exact.restore(0, *work_);
+    block_surface(pass, tile, first_row, Isa::ref, *work_);
+    if (!is(work_->surface.covered, at)) return {0, 0, 0};
+    ref::shade_begin(work_->surface, pass.materials.data(), pass.sky, pass.rays, work_->shade);
+    int lit = 0;
+    for (std::size_t l = 0; l < pass.lights.size(); ++l) {
+        std::fill_n(work_->visibility, block_samples, 1.0f);
+        exact.darken(l, 0, first_row, work_->visibility);
+        lit += work_->visibility[at] > 0 ? 1 : 0;
+        ref::shade_light(work_->surface, pass.lights[l].shade, work_->visibility, work_->shade);
+    }
+    const Light& source = pass.pass->light->whole;
+    say("  sample {}, light \"{}\" ({}, with a size): {} of {} points reach it, radiance {}", sample,
+        source.id, light_kind_name(source.kind), lit, pass.lights.size(), text_of(radiance(at)));
+    return radiance(at);
+}
+
 }  // namespace
 
 PixelTrace trace_pixel(const Scene& scene, int x, int y, const Exec& exec, FrameCache& cache) {
@@ -254,7 +282,16 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y, const Exec& exec, Frame
         story.say("    radiance {}", text_of(radiance));
         trace.radiance = i == 0 ? radiance : trace.radiance + radiance;
     }
-    trace.radiance = trace.radiance * (1.0f / static_cast<float>(tiles.pattern.size()));
+    const float share = 1.0f / static_cast<float>(tiles.pattern.size());
+    trace.radiance = trace.radiance * share;
+    for (const LightShadow& shadow : cache.shadows)
+        stats.lights.push_back(shadow.stats);
+    walk_soft_passes(tiles, exec, nullptr, stats.lights, [&](const TileScene& pass) {
+        for (auto i = static_cast<std::size_t>(pass.pass->first); i < pass.pattern.size();
+             i += static_cast<std::size_t>(pass.pass->stride))
+            trace.radiance = trace.radiance + story.soft_sample(pass, x, y, i) * share;
+        return true;
+    });
     story.say("  mean radiance {}", text_of(trace.radiance));
     if (scene.optics.enabled) story.say("  without the glare that [optics] adds to the whole picture");
 

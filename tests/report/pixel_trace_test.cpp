@@ -20,6 +20,22 @@ Scene exactly(Scene scene) {
     return scene;
 }
 
+/// And with lights that have a size, and one that is nothing but.
+Scene softly(Scene scene) {
+    for (SceneLight& light : scene.lights) {
+        light.light.angular_diameter_deg = 3;
+        light.light.radius_m = 0.2;
+        light.shadow.samples = 16;
+    }
+    SceneLight area = scene.lights.back();
+    area.light.kind = LightKind::area;
+    area.light.position = {1, 5, 2};
+    area.light.direction = {0, -1, 0};
+    area.shadow.samples = auto_samples;
+    scene.lights.push_back(area);
+    return exactly(std::move(scene));
+}
+
 void expect_pictures_pixels(const Scene& scene) {
     FrameCache cache;
     Frame frame;
@@ -37,6 +53,7 @@ TEST(PixelTrace, EndsAtThePicturesPixelBitForBit) {
     for (const int samples : {1, 4, 16}) {
         expect_pictures_pixels(everything(samples));
         expect_pictures_pixels(exactly(everything(samples)));
+        expect_pictures_pixels(softly(everything(samples)));
     }
 }
 
