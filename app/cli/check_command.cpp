@@ -17,12 +17,14 @@
 #include "app/frame/shadow_memory.h"
 #include "app/frame/shadow_text.h"
 #include "app/frame/shadows.h"
+#include "app/frame/soft_light.h"
 #include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
 #include "app/scene/rules_shadow.h"
 #include "app/scene/stereo_settings.h"
 #include "core/count_text.h"
+#include "raster/light_samples.h"
 #include "raster/view.h"
 
 namespace obscura {
@@ -95,10 +97,17 @@ std::string exact_text(const SceneLight& light, const Scene& scene) {
     const std::int64_t samples =
         (scene.render.width + 2 * margin) * (scene.render.height + 2 * margin) * scene.render.samples;
     const int views = shadow_map_count(light);
+    std::string soft;
+    if (is_soft(light)) {
+        soft = light.shadow.samples == auto_samples
+                   ? fmt::format("; as many points of the light as its penumbrae are wide, 1 to {}",
+                                 most_auto_samples)
+                   : fmt::format("; {} points of the light", light.shadow.samples);
+    }
     return fmt::format(
-        ", shadows of the picture's own samples, exact: {} to put in order{}, up to {} to look up",
+        ", shadows of the picture's own samples, exact: {} to put in order{}, up to {} to look up{}",
         count_text(casters, "triangle"), views > 1 ? fmt::format(" in {} views", views) : "",
-        count_text(samples, "sample"));
+        count_text(samples, "sample"), soft);
 }
 
 /// `light`: its resolution as found. `reason`: for its method.
@@ -119,6 +128,12 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
                        light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
     out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(shadow_map_bytes(light)));
     out += why;
+    if (has_size(light.light)) {
+        out += fmt::format(
+            "note      light '{}': maps see its middle alone, so its shadows are hard; "
+            "method = \"exact\" has penumbrae\n",
+            light.light.id);
+    }
     if (found) out += fmt::format("          {}\n", resolution_text(*found));
     if (found && found->capped) out += fmt::format("note      {}\n", capped_text(light, *found));
     if (!dense && light.shadow.receivers == Receivers::any && open_casters(scene.mesh)) {

@@ -5,6 +5,7 @@
 
 #include "app/frame/exact_tile.h"
 #include "app/frame/needed_texels.h"
+#include "app/frame/soft_light.h"
 #include "core/parallel.h"
 #include "hierarchy/build_memory.h"
 #include "hierarchy/tree_code.h"
@@ -64,7 +65,11 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
         const bool six = shadow_view_count(light.light.kind) > 1;
         bytes += casters_bytes(six ? mesh.triangles * 5 / 4 : mesh.triangles);
     }
-    return bytes;
+    // Of lights with a size one pass at a time holds what some of their points see.
+    std::int64_t pass = 0;
+    for (const SceneLight& light : lights)
+        pass = std::max(pass, is_soft(light) ? soft_pass_bytes(mesh, light.light.kind) : 0);
+    return bytes + pass;
 }
 
 std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
@@ -72,7 +77,10 @@ std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> 
 }
 
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights) {
-    return any_exact(lights) ? hardware_threads() * exact_tile_bytes(lights.size()) : 0;
+    if (!any_exact(lights)) return 0;
+    const bool soft = std::any_of(lights.begin(), lights.end(), is_soft);
+    const std::size_t together = std::max<std::size_t>(lights.size(), soft ? most_soft_together : 0);
+    return hardware_threads() * exact_tile_bytes(together);
 }
 
 int shadow_map_count(const SceneLight& light) {

@@ -17,7 +17,6 @@
 namespace obscura {
 namespace {
 
-constexpr int most_together = 64;
 constexpr std::int64_t together_bytes = std::int64_t{192} << 20;
 
 /// Points that are asked as one, and what they hold.
@@ -164,7 +163,7 @@ int soft_points_together(const MeshSize& mesh, LightKind kind) {
     const std::int64_t bytes = std::max<std::int64_t>(as_one_bytes(mesh, kind), 1);
     const int as_one = points_as_one(kind);
     return as_one *
-           static_cast<int>(std::clamp<std::int64_t>(together_bytes / bytes, 1, most_together / as_one));
+           static_cast<int>(std::clamp<std::int64_t>(together_bytes / bytes, 1, most_soft_together / as_one));
 }
 
 std::int64_t soft_pass_bytes(const MeshSize& mesh, LightKind kind) {

@@ -48,7 +48,9 @@ int points_for_penumbra(const SceneLight& light, float widest_px);
 /// Width in pixels of the widest penumbra of a light, whose middle's casters `shadow` holds, in the pictures.
 float widest_penumbra(std::span<const TileScene> pictures, const LightShadow& shadow, const Exec& exec);
 
-/// Points of a light that one pass asks, of such a mesh, and the bytes of what it then holds.
+constexpr int most_soft_together = 64;
+
+/// Points of a light that one pass asks, most_soft_together at most, of such a mesh, and the bytes of what it then holds.
 int soft_points_together(const MeshSize& mesh, LightKind kind);
 std::int64_t soft_pass_bytes(const MeshSize& mesh, LightKind kind);
 

@@ -59,7 +59,8 @@ void put_light(JsonWriter& json, const LightShadowStats& s) {
     json.begin_object();
     json.member("light", s.light).member("method", name_of(shadow_method_words, s.method));
     if (s.method == ShadowMethod::exact) {
-        json.member("casters", s.casters);
+        json.member("casters", s.casters).member("points", s.samples);
+        if (s.penumbra_px > 0) json.member("penumbra_px", static_cast<double>(s.penumbra_px));
     } else {
         json.member("resolution", s.resolution);
     }
