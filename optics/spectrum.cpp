@@ -1,8 +1,4 @@
-// Light by wavelength and the CIE 1931 observer.
-//
-// C. Wyman, P.-P. Sloan, P. Shirley: Simple analytic approximations to the CIE XYZ color matching functions,
-// JCGT 2(2), 2013, listing 1 (multi-lobe, piecewise Gaussian). D65: CIE 15:2004, table T.1. sRGB: IEC
-// 61966-2-1:1999.
+// Light by wavelength. D65: CIE 15:2004, table T.1.
 
 #include "optics/spectrum.h"
 

@@ -1,9 +1,9 @@
 // Profiles of the air, and its amounts along rays through spherical shells.
 //
 // Profiles: U.S. Standard Atmosphere, 1976 (NOAA, NASA, USAF), tables of density. E. Bruneton, F. Neyret:
-// Precomputed atmospheric scattering, EGSR 2008, section 4 (the table's axes) and table 1; E. Bruneton's notes to its
-// 2017 implementation (ozone). The table here holds amounts instead of transmittances: one table serves all wavelengths
-// and turbidities.
+// Precomputed atmospheric scattering, EGSR 2008, section 4 (the table's axes) and table 1; E. Bruneton's
+// notes to its 2017 implementation (ozone). The table here holds amounts instead of transmittances: one table
+// serves all wavelengths and turbidities.
 
 #include "core/sky/air.h"
 
@@ -65,37 +65,27 @@ std::array<Shell, standard_air.size() - 1> shells_of_standard_air() {
     return shells;
 }
 
-/// Squared radius of a ray after a distance.
-double radius_at(double radius, double cos_zenith, double distance) {
-    return std::sqrt(radius * radius + distance * (distance + 2 * radius * cos_zenith));
-}
-
-/// Gauss, two points a step; steps that grow by a constant factor from `dense` on, where the air changes most.
-AirAmount graded_sum(double radius, double cos_zenith, double dense, double far) {
-    const int steps = 20;
-    const double length = far - dense, first = 1.0, reach = std::abs(length) / first;
-    if (reach == 0) return {};
-    const double growth = num::exp(num::log(1 + reach) / steps);
-    const double half_spread = 0.28867513459481287;
-    AirAmount sum;
-    double grown = 1, begin = 0;
-    for (int i = 0; i < steps; ++i) {
-        grown *= growth;
-        const double end = (grown - 1) / reach, middle = (begin + end) / 2, width = end - begin;
-        for (const double side : {-half_spread, half_spread}) {
-            const double at = dense + length * (middle + side * width);
-            const double height = radius_at(radius, cos_zenith, at) - earth_radius_km;
-            sum = sum + air_density(height) * (std::abs(length) * width / 2);
-        }
-        begin = end;
+/// Borders of steps from the ray's lowest point, where its height is `low_km`, up to `high_km`, as distances
+/// from there. Heights above the lowest grow with the third power: so steps do along a vertical ray, and with
+/// the power 1.5 along the horizon, where the way grows as the root of the height. `perigee_km` is the radius
+/// the whole line touches.
+std::vector<double> graded(double perigee_km, double low_km, double high_km, int steps) {
+    const auto along = [&](double height) {
+        const double radius = earth_radius_km + height;
+        return std::sqrt(std::max(0.0, (radius - perigee_km) * (radius + perigee_km)));
+    };
+    std::vector<double> borders;
+    for (int i = 0; i <= steps; ++i) {
+        const double t = static_cast<double>(i) / steps;
+        borders.push_back(along(low_km + (high_km - low_km) * (t * t * t)) - along(low_km));
     }
-    return sum;
+    return borders;
 }
 
-/// Axes of the table (Bruneton and Neyret 2008, section 4): the distance to the horizon stands for height, the
-/// distance to the top of the air, between its least and its largest value, for the angle.
+/// Axes of the table (Bruneton and Neyret 2008, section 4): the distance to the horizon stands for height,
+/// the distance to the top of the air, between its least and its largest value, for the angle.
 constexpr double top_radius = earth_radius_km + air_top_km;
-constexpr int height_cells = 160, angle_cells = 256;
+constexpr int height_cells = 96, angle_cells = 160;
 
 double horizon_distance(double radius) {
     return std::sqrt(std::max(0.0, radius * radius - earth_radius_km * earth_radius_km));
@@ -117,9 +107,14 @@ std::vector<AirAmount> table_to_space() {
         const AngleRange range = angle_range(radius);
         for (int j = 0; j <= angle_cells; ++j) {
             const double d = std::max(1e-6, range.least + (range.largest - range.least) * j / angle_cells);
-            const double cosine = std::clamp(
-                (top_radius * top_radius - radius * radius - d * d) / (2 * radius * d), -1.0, 1.0);
-            table.push_back(air_along(radius - earth_radius_km, cosine, 0, d));
+            const double cosine = (top_radius * top_radius - radius * radius - d * d) / (2 * radius * d);
+            // The last ray just misses the ground, whatever rounding says.
+            const double cos_zenith = std::clamp(cosine, -to_horizon / radius * (1 - 1e-9), 1.0);
+            const std::vector<double> borders = ray_steps(radius - earth_radius_km, cos_zenith, 32);
+            AirAmount sum;
+            for (std::size_t k = 0; k + 1 < borders.size(); ++k)
+                sum = sum + air_along(radius - earth_radius_km, cos_zenith, borders[k], borders[k + 1]);
+            table.push_back(sum);
         }
     }
     return table;
@@ -148,11 +143,39 @@ RayEnd ray_end(double height_km, double cos_zenith) {
     return {false, std::max(0.0, std::sqrt(std::max(0.0, to_top)) - along)};
 }
 
-AirAmount air_along(double height_km, double cos_zenith, double from_km, double to_km) {
+std::vector<double> ray_steps(double height_km, double cos_zenith, int steps) {
+    const RayEnd end = ray_end(height_km, cos_zenith);
     const double radius = earth_radius_km + height_km;
-    // The air is densest, and changes most, where the ray is lowest.
-    const double lowest = std::clamp(-radius * cos_zenith, from_km, to_km);
-    return graded_sum(radius, cos_zenith, lowest, from_km) + graded_sum(radius, cos_zenith, lowest, to_km);
+    const double perigee = radius * std::sqrt(std::max(0.0, 1 - cos_zenith * cos_zenith));
+    const double top = std::max(height_km, air_top_km);
+    if (cos_zenith >= 0) return graded(perigee, height_km, top, steps);
+    const double lowest = end.on_ground ? 0 : std::max(0.0, perigee - earth_radius_km);
+    const auto third = [](double height) { return num::cbrt(height); };
+    const double down = third(height_km - lowest), up = end.on_ground ? 0 : third(top - lowest);
+    const int before =
+        end.on_ground ? steps : std::clamp(static_cast<int>(steps * down / (down + up) + 0.5), 1, steps - 1);
+    std::vector<double> borders = graded(perigee, lowest, height_km, before);
+    const double to_lowest = borders.back();
+    for (double& border : borders)
+        border = to_lowest - border;
+    std::reverse(borders.begin(), borders.end());
+    if (end.on_ground) return borders;
+    const std::vector<double> rising = graded(perigee, lowest, top, steps - before);
+    for (std::size_t i = 1; i < rising.size(); ++i)
+        borders.push_back(to_lowest + rising[i]);
+    return borders;
+}
+
+double height_along(double height_km, double cos_zenith, double distance_km) {
+    const double radius = earth_radius_km + height_km;
+    return std::sqrt(radius * radius + distance_km * (distance_km + 2 * radius * cos_zenith)) -
+           earth_radius_km;
+}
+
+AirAmount air_along(double height_km, double cos_zenith, double from_km, double to_km) {
+    const double width = to_km - from_km, middle = from_km + width / 2, spread = 0.28867513459481287 * width;
+    const auto density = [&](double at) { return air_density(height_along(height_km, cos_zenith, at)); };
+    return (density(middle - spread) + density(middle + spread)) * (width / 2);
 }
 
 AirAmount air_to_space(double height_km, double cos_zenith) {
@@ -160,10 +183,12 @@ AirAmount air_to_space(double height_km, double cos_zenith) {
     const double radius = earth_radius_km + std::clamp(height_km, 0.0, air_top_km);
     const AngleRange range = angle_range(radius);
     const double along = radius * cos_zenith;
-    const double d = std::sqrt(std::max(0.0, along * along + (top_radius - radius) * (top_radius + radius))) - along;
+    const double d =
+        std::sqrt(std::max(0.0, along * along + (top_radius - radius) * (top_radius + radius))) - along;
     const double x = height_cells * horizon_distance(radius) / horizon_distance(top_radius);
     const double y = angle_cells * std::clamp((d - range.least) / (range.largest - range.least), 0.0, 1.0);
-    const int i = std::min(static_cast<int>(x), height_cells - 1), j = std::min(static_cast<int>(y), angle_cells - 1);
+    const int i = std::min(static_cast<int>(x), height_cells - 1),
+              j = std::min(static_cast<int>(y), angle_cells - 1);
     const double u = x - i, v = y - j;
     const AirAmount* low = &table[static_cast<std::size_t>(i * (angle_cells + 1) + j)];
     const AirAmount* high = low + (angle_cells + 1);

@@ -1,10 +1,12 @@
 #pragma once
 // What the air consists of at which height, and how much of it lies along a ray to space.
 
+#include <vector>
+
 namespace obscura {
 
 constexpr double earth_radius_km = 6371;
-constexpr double air_top_km = 120;          ///< above it nothing scatters
+constexpr double air_top_km = 120;           ///< above it nothing scatters
 constexpr double sun_radius_deg = 0.53 / 2;  ///< as seen from the earth
 
 /// Molecules, aerosol and ozone, each in units of what lies above a square of sea level. An amount per
@@ -34,11 +36,20 @@ struct RayEnd {
 };
 RayEnd ray_end(double height_km, double cos_zenith);
 
-/// Air along a stretch of a straight ray by quadrature, about 1e-5 of it. Distances from the ray's start.
+/// Borders of `steps` >= 2 steps along the whole ray, as distances from its start, short where the air is
+/// dense: see graded() in air.cpp.
+std::vector<double> ray_steps(double height_km, double cos_zenith, int steps);
+
+/// Height after a distance along a ray.
+double height_along(double height_km, double cos_zenith, double distance_km);
+
+/// Air in one step of a ray, by Gauss's rule of two points.
 AirAmount air_along(double height_km, double cos_zenith, double from_km, double to_km);
 
 /// Air from a height to space along a ray that misses the ground (one that does not is taken as if it just
-/// touched it). From a table, within 0.2 % for heights below 30 km (tests/sky); constant data, made once.
+/// touched it). From a table, constant data made once in 40 ms; of what a quadrature gives, molecules are
+/// within 0.4 % (0.05 % below 7 km), ozone 0.9 %, aerosol 0.3 % below 2.5 km and 5 % where there is hardly
+/// any (tests/sky).
 AirAmount air_to_space(double height_km, double cos_zenith);
 
 /// Share of the sun's disc above the local horizon: 1, 0, or smoothly between within the disc's radius.

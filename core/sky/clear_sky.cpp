@@ -1,8 +1,10 @@
-// Radiance of a clear sky: single scattering along rays from the ground, what was scattered before as even light.
+// Radiance of a clear sky: single scattering along rays from the ground, what was scattered before as even
+// light.
 //
-// S. Hillaire: A scalable and production ready sky and atmosphere rendering technique, EGSR 2020, sections 5.2 to 5.5.
-// E. Bruneton, F. Neyret: Precomputed atmospheric scattering, EGSR 2008, section 4: phase functions stay out of tables.
-// Limb: D. Hestroffer, C. Magnan: Wavelength dependency of the solar limb darkening, A&A 333 (1998).
+// S. Hillaire: A scalable and production ready sky and atmosphere rendering technique, EGSR 2020,
+// sections 5.2 to 5.5. E. Bruneton, F. Neyret: Precomputed atmospheric scattering, EGSR 2008, section 4:
+// phase functions stay out of tables. Limb: D. Hestroffer, C. Magnan: Wavelength dependency of the solar limb
+// darkening, A&A 333 (1998).
 
 #include "core/sky/clear_sky.h"
 
@@ -10,6 +12,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/num.h"
 #include "core/observer.h"
 #include "core/parallel.h"
@@ -23,8 +26,8 @@ namespace {
 constexpr int elevation_cells = 80, azimuth_cells = 40, table_steps = 48;
 constexpr int orders = 4;
 
-/// What a ray from the ground sees, by how it was scattered: before the phase functions, which are 4 pi times 1 on
-/// average, the first two.
+/// What a ray from the ground sees, by how it was scattered: before the phase functions, which are 4 pi times
+/// 1 on average, the first two.
 struct Scattered {
     Vec3d molecules, aerosol, multiple;
 };
@@ -49,8 +52,8 @@ Scattered scattered_along(const ClearAir& air, const ViewPath& path, double cos_
     return {rgb_of(air.spectrum, molecules), rgb_of(air.spectrum, aerosol), rgb_of(air.spectrum, multiple)};
 }
 
-/// Rows stand densest at the horizon, with q = sqrt(1 - tan(zenith angle / 2)); columns are even in the cosine of
-/// the azimuth from the sun, of which everything here is a smooth function. Neither needs an angle.
+/// Rows stand densest at the horizon, with q = sqrt(1 - tan(zenith angle / 2)); columns are even in the
+/// cosine of the azimuth from the sun, of which everything here is a smooth function. Neither needs an angle.
 double elevation_axis(double sine) {
     const double level = std::sqrt(std::max(0.0, 1 - sine * sine));
     return std::sqrt(std::max(0.0, 1 - level / (1 + sine)));
@@ -71,7 +74,8 @@ struct Corner {
 Vec3d interpolate(const Image<Vec3f>& table, const Corner& c) {
     const Vec3f* low = table.row(c.y) + c.x;
     const Vec3f* high = table.row(c.y + 1) + c.x;
-    return mix(mix(to_double(low[0]), to_double(low[1]), c.u), mix(to_double(high[0]), to_double(high[1]), c.u), c.v);
+    return mix(mix(to_double(low[0]), to_double(low[1]), c.u),
+               mix(to_double(high[0]), to_double(high[1]), c.u), c.v);
 }
 
 Corner corner_of(const ClearSky& sky, Vec3d direction) {
@@ -114,7 +118,8 @@ Vec3f sky_irradiance(const ClearSky& sky) {
         for (int i = 0; i < azimuths; ++i) {
             const double turn = 180.0 * (i + 0.5) / azimuths;
             const Vec3d across{-sky.level_sun.z, 0, sky.level_sun.x};
-            const Vec3d flat = sky.level_sun * (level * num::cos_deg(turn)) + across * (level * num::sin_deg(turn));
+            const Vec3d flat =
+                sky.level_sun * (level * num::cos_deg(turn)) + across * (level * num::sin_deg(turn));
             sum = sum + to_double(sky_radiance(sky, {flat.x, sine, flat.z})) * sine;
         }
     }
@@ -147,13 +152,15 @@ Spectrum sun_passed(const AirSpectrum& air, double elevation_deg) {
 ClearAir clear_air(const ClearAirParams& params, const Exec& exec) {
     CHECK(params.turbidity >= 1.7 && params.turbidity <= 10);
     ClearAir air{params, air_spectrum(params.turbidity, params.sun_above_air_w_m2, params.wavelengths), {}};
-    air.scattered = scattered_light(air.spectrum, reflectance(air.spectrum, params.ground_albedo), orders, exec);
+    air.scattered =
+        scattered_light(air.spectrum, reflectance(air.spectrum, params.ground_albedo), orders, exec);
     return air;
 }
 
 Vec3d compass_direction(double azimuth_deg, double elevation_deg) {
     const double level = num::cos_deg(elevation_deg);
-    return {level * num::sin_deg(azimuth_deg), num::sin_deg(elevation_deg), -level * num::cos_deg(azimuth_deg)};
+    return {level * num::sin_deg(azimuth_deg), num::sin_deg(elevation_deg),
+            -level * num::cos_deg(azimuth_deg)};
 }
 
 ClearSky clear_sky(const ClearAir& air, double sun_azimuth_deg, double sun_elevation_deg, const Exec& exec) {
@@ -205,7 +212,8 @@ Vec3f sun_disc_radiance(const ClearSky& sky, Vec3d direction) {
     transmittance(air, air_to_space(0, direction.y), 1 / (num::pi * sun_radius * sun_radius), light);
     const double log_cosine = 0.5 * num::log(1 - off * off);
     for (std::size_t i = 0; i < static_cast<std::size_t>(air.count); ++i) {
-        const double power = 292 / air.wavelength_nm[i] - 0.023;
+        const double nm = air.wavelength_nm[i];
+        const double power = nm > 417 ? 292 / nm - 0.023 : 441 / nm - 0.507;
         light[i] *= (power + 2) / 2 * exp_of_depth(power * log_cosine);
     }
     return to_float(into_gamut(rgb_of(air, light)));

@@ -6,12 +6,10 @@
 
 namespace obscura {
 
-/// e^x for x <= 0, relative error below 1e-13; x below -700 counts as -700. One multiplication, addition or
-/// bit operation after another, no branch: the same bits everywhere, and compilers put it into lanes.
-/// Taylor series on |r| <= ln 2 / 2 after x = k ln 2 + r (Muller 2016, ch. 11).
+/// e^x for x in [-700, 0], relative error below 1e-13. One multiplication, addition or bit operation after
+/// another, no branch: the same bits everywhere, and compilers put it into lanes. Taylor series on |r| <= ln
+/// 2 / 2 after x = k ln 2 + r (Muller 2016, ch. 11).
 inline double exp_of_depth(double x) {
-    const double lowest = -700;
-    x = x < lowest ? lowest : x;
     // Adding 1.5 * 2^52 rounds to an integer, which then stands in the last bits.
     const double rounder = 0x1.8p52;
     const double shifted = x * 1.4426950408889634 + rounder;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/error.h"
 #include "core/num.h"
 
 namespace obscura {
@@ -22,26 +23,31 @@ Image<Vec3f> in_colour(const FloatImage& decoded) {
     if (const auto* colour = std::get_if<Image<Vec3f>>(&decoded)) return *colour;
     const auto& grey = std::get<Image<float>>(decoded);
     Image<Vec3f> image(grey.width, grey.height);
-    std::transform(grey.pixels.begin(), grey.pixels.end(), image.pixels.begin(), [](float v) { return Vec3f{v, v, v}; });
+    std::transform(grey.pixels.begin(), grey.pixels.end(), image.pixels.begin(), [](float v) {
+        return Vec3f{v, v, v};
+    });
     return image;
 }
 
 }  // namespace
 
-ImageSky image_sky(std::string_view pfm_bytes, const std::string& name, double scale, const ImageFileLimits& limits) {
+ImageSky image_sky(std::string_view pfm_bytes, const std::string& name, double scale,
+                   const ImageFileLimits& limits) {
     CHECK(scale > 0);
     ImageSky sky;
     sky.pixels = in_colour(decode_pfm(pfm_bytes, name, limits));
     const Image<Vec3f>& image = sky.pixels;
     if (image.width != 2 * image.height)
-        throw InputError(name, fmt::format("an equirectangular sky is twice as wide as high, not {} x {} pixels",
-                                           image.width, image.height));
+        throw InputError(name,
+                         fmt::format("an equirectangular sky is twice as wide as high, not {} x {} pixels",
+                                     image.width, image.height));
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         Vec3f& pixel = sky.pixels.pixels[i];
         pixel = pixel * static_cast<float>(scale);
         if (is_light(pixel)) continue;
         const auto width = static_cast<std::size_t>(image.width);
-        throw InputError(name, fmt::format("pixel {}, {} of the sky is negative or not finite", i % width, i / width));
+        throw InputError(
+            name, fmt::format("pixel {}, {} of the sky is negative or not finite", i % width, i / width));
     }
     return sky;
 }

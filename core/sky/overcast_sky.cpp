@@ -28,7 +28,8 @@ constexpr std::array<LuxRow, 6> lux_rows = {{{20, 3.74, 3.97, -4.07, 1.47},
 
 double clear_twilight_lux(double sun_elevation_deg) {
     const double elevation = std::clamp(sun_elevation_deg, -18.0, 90.0), x = elevation / 90;
-    const auto row = std::find_if(lux_rows.begin(), lux_rows.end(), [&](const LuxRow& r) { return elevation >= r.from_deg; });
+    const auto row = std::find_if(lux_rows.begin(), lux_rows.end(),
+                                  [&](const LuxRow& r) { return elevation >= r.from_deg; });
     return num::pow(10, row->a + x * (row->b + x * (row->c + x * row->d)));
 }
 
@@ -41,7 +42,8 @@ OvercastSky overcast_sky(double sun_elevation_deg, Vec3d sun_above_air_w_m2, Vec
     // Of level ground: pi times 7/9 of the zenith.
     const double zenith = lux / lux_per_watt() * 9 / (7 * num::pi);
     const Vec3d sun = sun_above_air_true();
-    const Vec3d scale{sun_above_air_w_m2.x / sun.x, sun_above_air_w_m2.y / sun.y, sun_above_air_w_m2.z / sun.z};
+    const Vec3d scale{sun_above_air_w_m2.x / sun.x, sun_above_air_w_m2.y / sun.y,
+                      sun_above_air_w_m2.z / sun.z};
     return {to_float(scale * zenith), to_float(scale * ground_albedo * (zenith * 7 / 9))};
 }
 

@@ -1,10 +1,10 @@
 // Multiple scattering as even light.
 //
-// S. Hillaire: A scalable and production ready sky and atmosphere rendering technique, EGSR 2020, section 5.5: higher
-// orders are even to all sides, so a table over height and the sun's zenith angle holds them. There the second order is
-// computed and the rest is its geometric series, as if the neighbourhood were lit alike; at dusk it is not, so orders are
-// summed here one after another (as Bruneton and Neyret 2008, algorithm 4.1, do with directions), and only what is left
-// after the last one is a series.
+// S. Hillaire: A scalable and production ready sky and atmosphere rendering technique, EGSR 2020,
+// section 5.5: higher orders are even to all sides, so a table over height and the sun's zenith angle holds
+// them. There the second order is computed and the rest is its geometric series, as if the neighbourhood were
+// lit alike; at dusk it is not, so orders are summed here one after another (as Bruneton and Neyret 2008,
+// algorithm 4.1, do with directions), and only what is left after the last one is a series.
 
 #include "core/sky/scattered_light.h"
 
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/error.h"
 #include "core/num.h"
 #include "core/parallel.h"
 #include "core/sky/exp_lanes.h"
@@ -22,8 +23,8 @@ namespace obscura {
 
 namespace {
 
-constexpr int heights = 16, suns = 56;
-constexpr int slopes = 14, turns = 4, path_steps = 16;  ///< directions of a sphere, and steps along each
+constexpr int heights = 14, suns = 48;
+constexpr int slopes = 12, turns = 3, path_steps = 24;  ///< directions of a sphere, and steps along each
 constexpr double lowest_cos_sun = -0.42, horizon_width = 0.2;
 constexpr double least_light = 1e-60;
 
@@ -42,7 +43,7 @@ double cos_sun_of_node(int node) {
 }
 double height_of_node(int node) {
     const double x = static_cast<double>(node) / (heights - 1);
-    return air_top_km * x * x;
+    return air_top_km * (x * x) * (x * x);
 }
 
 struct Cell {
@@ -65,8 +66,8 @@ double share_of_slope(int slope) {
     return (slope % half + 0.5) / half / half;
 }
 
-/// What one order of scattering sends through the air: mean radiance by [height][sun][wavelength] and irradiance of
-/// the ground by [sun][wavelength].
+/// What one order of scattering sends through the air: mean radiance by [height][sun][wavelength] and
+/// irradiance of the ground by [sun][wavelength].
 struct Order {
     std::vector<double> mean, ground;
 };
@@ -95,7 +96,8 @@ Scattering scattering_of(const AirSpectrum& air, const Spectrum& albedo, const E
 }
 
 /// Straight lines between logarithms.
-void irradiance_of_ground(const Scattering& s, const std::vector<double>& log_ground, double cos_sun, Spectrum& out) {
+void irradiance_of_ground(const Scattering& s, const std::vector<double>& log_ground, double cos_sun,
+                          Spectrum& out) {
     const Cell cell = cell_of(sun_cell(cos_sun), suns);
     const double* low = &log_ground[cell.node * s.count];
     const double* high = low + s.count;
@@ -189,6 +191,24 @@ std::vector<double> sun_on_ground(const AirSpectrum& air) {
     return ground;
 }
 
+/// The orders left, each as much of the one before as the last was; but never more than over all of the air
+/// at this wavelength, where light that is still on its way from brighter places does not count as growth.
+void add_further_orders(const Scattering& s, const std::vector<double>& last_but_one,
+                        const std::vector<double>& last, std::vector<double>& total) {
+    for (std::size_t i = 0; i < s.count; ++i) {
+        double before = 0, after = 0;
+        for (std::size_t at = i; at < last.size(); at += s.count) {
+            before += last_but_one[at];
+            after += last[at];
+        }
+        const double most = before > 0 ? std::min(0.95, after / before) : 0;
+        for (std::size_t at = i; at < last.size(); at += s.count) {
+            const double ratio = last_but_one[at] > 0 ? std::min(most, last[at] / last_but_one[at]) : 0;
+            total[at] += last[at] * ratio / (1 - ratio);
+        }
+    }
+}
+
 }  // namespace
 
 ScatteredLight scattered_light(const AirSpectrum& air, const Spectrum& albedo, int orders, const Exec& exec) {
@@ -209,16 +229,13 @@ ScatteredLight scattered_light(const AirSpectrum& air, const Spectrum& albedo, i
         for (std::size_t i = 0; i < total.size(); ++i)
             total[i] += order.mean[i];
     }
-    // The orders left, each as much of the one before as the last was.
-    for (std::size_t i = 0; i < total.size(); ++i) {
-        const double ratio = last[i] > 0 ? std::min(0.9, order.mean[i] / last[i]) : 0;
-        total[i] += order.mean[i] * ratio / (1 - ratio);
-    }
+    add_further_orders(s, last, order.mean, total);
     return {logarithms(total), air.count};
 }
 
 void mean_radiance(const ScatteredLight& light, double height_km, double cos_sun, Spectrum& out) {
-    const Cell height = cell_of(std::sqrt(std::clamp(height_km, 0.0, air_top_km) / air_top_km) * (heights - 1), heights);
+    const Cell height = cell_of(
+        std::sqrt(std::sqrt(std::clamp(height_km, 0.0, air_top_km) / air_top_km)) * (heights - 1), heights);
     const Cell sun = cell_of(sun_cell(cos_sun), suns);
     const auto count = static_cast<std::size_t>(light.wavelengths);
     const double* low = &light.log_mean[(height.node * suns + sun.node) * count];

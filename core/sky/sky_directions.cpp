@@ -1,9 +1,9 @@
 // Partition of the sky into parts of equal importance.
 //
-// Hierarchical sample warping (P. Clarberg et al.: Wavelet importance sampling, SIGGRAPH 2005, section 4), without samples:
-// the square is halved by importance along one axis, each half along the other, and so on; what is left are the
-// parts. Order: D. Hilbert 1891, with the quadrants of this division. Square to hemisphere: P. Shirley, K. Chiu: A low
-// distortion map between disk and square, JGT 2(3), 1997.
+// Hierarchical sample warping (P. Clarberg et al.: Wavelet importance sampling, SIGGRAPH 2005, section 4),
+// without samples: the square is halved by importance along one axis, each half along the other, and so on;
+// what is left are the parts. Order: D. Hilbert 1891, with the quadrants of this division. Square to
+// hemisphere: P. Shirley, K. Chiu: A low distortion map between disk and square, JGT 2(3), 1997.
 
 #include "core/sky/sky_directions.h"
 
@@ -30,7 +30,8 @@ std::size_t cell_index(int x, int y) {
     return static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x);
 }
 
-/// The unit direction of a point of the square [-1, 1]^2: radius and azimuth on the disc, then height 1 - radius^2.
+/// The unit direction of a point of the square [-1, 1]^2: radius and azimuth on the disc, then height 1 -
+/// radius^2.
 Vec3d direction_of(double a, double b) {
     const bool wide = std::abs(a) > std::abs(b);
     const double radius = wide ? a : b;
@@ -49,7 +50,8 @@ std::size_t cell_towards(double height, double turn_deg) {
     const double radius = std::sqrt(std::max(0.0, 1 - height));
     const double octant = std::floor((turn_deg + 45) / 90);
     const double across = radius * (turn_deg - 90 * octant) / 45;
-    const std::array<Vec2d, 4> sides = {{{radius, across}, {-across, radius}, {-radius, -across}, {across, -radius}}};
+    const std::array<Vec2d, 4> sides = {
+        {{radius, across}, {-across, radius}, {-radius, -across}, {across, -radius}}};
     const Vec2d at = sides[static_cast<std::size_t>(octant) % 4];
     const auto cell = [](double v) { return std::clamp(static_cast<int>((v + 1) / 2 * side), 0, side - 1); };
     return cell_index(cell(at.x), cell(at.y));
@@ -63,6 +65,10 @@ void add(SkyCell& cell, Vec3d light, Vec3d direction) {
 
 SkyCell operator+(const SkyCell& a, const SkyCell& b) {
     return {a.red + b.red, a.green + b.green, a.blue + b.blue};
+}
+
+Vec3d balanced(const SkyCell& cell, Vec3d scale) {
+    return cell.red * scale.x + cell.green * scale.y + cell.blue * scale.z;
 }
 
 /// Vector irradiance of the luminance.
@@ -80,7 +86,8 @@ struct Part {
 struct Partition {
     const SkyGrid& grid;
     std::vector<double> importance;  ///< by cell
-    double faint;                    ///< luminance that every cell has at least, for directions of dark parts
+    double faint;                    ///< light that every cell has at least, for directions of dark parts
+    Vec3d balance;                   ///< of the channels: each counts as a share of its own sum
     std::vector<SkyDirection> directions;
 };
 
@@ -89,8 +96,10 @@ std::vector<double> importance_of(const SkyGrid& grid, SkyImportance kind) {
     double total = 0;
     for (int y = 0; y < side; ++y) {
         for (int x = 0; x < side; ++x) {
-            const Vec3d light = luminance_of(grid.cells[cell_index(x, y)]);
-            importance.push_back(kind == SkyImportance::cosine ? direction_of_cell(x, y).y : length(light));
+            const double radiance = length(luminance_of(grid.cells[cell_index(x, y)]));
+            importance.push_back(kind == SkyImportance::radiance ? radiance
+                                 : kind == SkyImportance::root   ? std::sqrt(radiance)
+                                                                 : direction_of_cell(x, y).y);
             total += importance.back();
         }
     }
@@ -142,7 +151,7 @@ SkyDirection light_of(const Partition& p, const Part& part) {
             middle = middle + direction_of_cell(x, y);
         }
     }
-    const Vec3d direction = normalize(luminance_of(sum) + middle * p.faint);
+    const Vec3d direction = normalize(balanced(sum, p.balance) + middle * p.faint);
     const auto facing = [&](Vec3d channel) { return std::max(0.0, dot(channel, direction)); };
     return {direction, to_float(Vec3d{facing(sum.red), facing(sum.green), facing(sum.blue)})};
 }
@@ -174,7 +183,8 @@ void divide(Partition& p, const Part& part, int levels, Turn turn) {
         {{0, 0, true, false}, {0, 1, false, false}, {1, 1, false, false}, {1, 0, true, true}}};
     for (const Piece& piece : pieces) {
         const int flip = turn.reversed ? 1 : 0;
-        const int x = (turn.exchanged ? piece.y : piece.x) ^ flip, y = (turn.exchanged ? piece.x : piece.y) ^ flip;
+        const int x = (turn.exchanged ? piece.y : piece.x) ^ flip,
+                  y = (turn.exchanged ? piece.x : piece.y) ^ flip;
         divide(p, quadrant[x][y], levels - 1,
                {turn.exchanged != piece.exchanged, turn.reversed != piece.reversed});
     }
@@ -188,8 +198,8 @@ SkyGrid sky_grid(const std::function<Vec3f(Vec3d)>& radiance, const Exec& exec) 
     parallel_for(side, exec, [&](std::size_t y) {
         for (int x = 0; x < side; ++x) {
             const Vec3d direction = direction_of_cell(x, static_cast<int>(y));
-            add(grid.cells[cell_index(x, static_cast<int>(y))], to_double(radiance(direction)) * cell_solid_angle,
-                direction);
+            add(grid.cells[cell_index(x, static_cast<int>(y))],
+                to_double(radiance(direction)) * cell_solid_angle, direction);
         }
     });
     return grid;
@@ -217,7 +227,8 @@ SkyGrid sky_grid(const ImageSky& sky) {
         const double solid_angle = 2 * num::pi / columns * (above - below);
         for (int i = 0; i < columns; ++i) {
             const auto column = static_cast<std::size_t>(i);
-            add(grid.cells[cell_towards(height, turns[column])], to_double(image(i / across, j / across)) * solid_angle,
+            add(grid.cells[cell_towards(height, turns[column])],
+                to_double(image(i / across, j / across)) * solid_angle,
                 {level[column].x * flat, height, level[column].z * flat});
         }
     }
@@ -235,11 +246,15 @@ Vec3d unoccluded_irradiance(const SkyGrid& grid, Vec3d normal) {
 
 std::vector<SkyDirection> sky_directions(const SkyGrid& grid, int count, SkyImportance importance) {
     CHECK(count == 16 || count == 64 || count == 256 || count == 1024, fmt::format("count={}", count));
-    Partition partition{grid, importance_of(grid, importance), 0, {}};
-    double total = 0;
+    Vec3d total;
     for (const SkyCell& cell : grid.cells)
-        total += length(luminance_of(cell));
-    partition.faint = total > 0 ? 1e-9 * total / (side * side) : 1;
+        total = total + Vec3d{length(cell.red), length(cell.green), length(cell.blue)};
+    const auto share = [](double sum) { return sum > 0 ? 1 / sum : 0; };
+    Partition partition{grid,
+                        importance_of(grid, importance),
+                        1e-9 / (side * side),
+                        {share(total.x), share(total.y), share(total.z)},
+                        {}};
     int levels = 0;
     while (1 << (2 * levels) < count)
         ++levels;

@@ -13,7 +13,8 @@ SkyGrid sky_grid(const SkyModel& sky, const Exec& exec) {
     return sky_grid([&](Vec3d direction) { return sky_radiance(sky, direction); }, exec);
 }
 
-std::vector<SkyDirection> sky_directions(const SkyModel& sky, int count, SkyImportance importance, const Exec& exec) {
+std::vector<SkyDirection> sky_directions(const SkyModel& sky, int count, SkyImportance importance,
+                                         const Exec& exec) {
     return sky_directions(sky_grid(sky, exec), count, importance);
 }
 

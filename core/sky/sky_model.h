@@ -18,6 +18,7 @@ Vec3f sky_radiance(const SkyModel& sky, Vec3d direction);
 
 /// See sky_directions.h; a gradient or any other sky comes as a function.
 SkyGrid sky_grid(const SkyModel& sky, const Exec& exec);
-std::vector<SkyDirection> sky_directions(const SkyModel& sky, int count, SkyImportance importance, const Exec& exec);
+std::vector<SkyDirection> sky_directions(const SkyModel& sky, int count, SkyImportance importance,
+                                         const Exec& exec);
 
 }  // namespace obscura

@@ -7,8 +7,8 @@
 
 namespace obscura {
 
-/// Light that arrives evenly from all sides with radiance 1 in the middle of a step reaches the ray's start as
-/// radiance `molecules` + `aerosol`.
+/// Light that arrives evenly from all sides with radiance 1 in the middle of a step reaches the ray's start
+/// as radiance `molecules` + `aerosol`.
 struct PathStep {
     double distance_km = 0, height_km = 0;  ///< of its middle
     Spectrum molecules{}, aerosol{};
@@ -21,8 +21,8 @@ struct ViewPath {
     Spectrum passed{};  ///< share of light from the end that reaches the start
 };
 
-/// Steps grow away from the ray's lowest point; within a step light fades exponentially and is scattered as in its
-/// middle (Hillaire 2020, section 5.2, after Hillaire 2016). Second order in the length of steps.
+/// Steps grow away from the ray's lowest point; within a step light fades exponentially and is scattered as
+/// in its middle (Hillaire 2020, section 5.2, after Hillaire 2016). Second order in the length of steps.
 ViewPath view_path(const AirSpectrum& air, double height_km, double cos_zenith, int steps);
 
 /// Cosine of the sun's zenith angle, as seen from a point of a ray: `cos_sun` at the ray's start,
