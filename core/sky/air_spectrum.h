@@ -26,7 +26,7 @@ struct AirSpectrum {
 };
 
 /// `turbidity` in [1, 10] (aerosol after Preetham), `sun_above_air` linear sRGB of the sun, `count`
-/// wavelengths in [4, most_wavelengths]. Colours by 10 wavelengths are within 0.5 % of 40's (tests/sky).
+/// wavelengths in [4, most_wavelengths]. Colours by 10 are within 1.2 % of 40's (tests/sky).
 AirSpectrum air_spectrum(double turbidity, Vec3d sun_above_air, int count);
 
 /// The sun above the air, linear sRGB in watts per square metre and channel: its true colour (about 5900 K

@@ -151,9 +151,10 @@ Spectrum sun_passed(const AirSpectrum& air, double elevation_deg) {
 
 ClearAir clear_air(const ClearAirParams& params, const Exec& exec) {
     CHECK(params.turbidity >= 1.7 && params.turbidity <= 10);
+    const Vec3d albedo = params.ground_albedo;
+    CHECK(std::min({albedo.x, albedo.y, albedo.z}) >= 0 && std::max({albedo.x, albedo.y, albedo.z}) <= 1);
     ClearAir air{params, air_spectrum(params.turbidity, params.sun_above_air_w_m2, params.wavelengths), {}};
-    air.scattered =
-        scattered_light(air.spectrum, reflectance(air.spectrum, params.ground_albedo), orders, exec);
+    air.scattered = scattered_light(air.spectrum, reflectance(air.spectrum, albedo), orders, exec);
     return air;
 }
 

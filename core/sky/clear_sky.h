@@ -26,7 +26,7 @@ struct ClearAir {
     ScatteredLight scattered;
 };
 
-/// About 0.1 s on one thread.
+/// CHECKs the ranges above. About 0.13 s on one thread.
 ClearAir clear_air(const ClearAirParams& params, const Exec& exec);
 
 /// Unit vector towards azimuth (clockwise from north, which is -Z) and elevation.
@@ -45,12 +45,13 @@ struct ClearSky {
 };
 
 /// Elevation in [-90, 90] of the disc's middle as it is seen, so with refraction where there is any
-/// (SunPosition::apparent_elevation_deg). The same bits for every exec. About 0.1 s on one thread.
+/// (SunPosition::apparent_elevation_deg). The same bits for every exec. About 0.02 s on one
+/// thread.
 ClearSky clear_sky(const ClearAir& air, double sun_azimuth_deg, double sun_elevation_deg, const Exec& exec);
 
 /// Radiance from a unit direction, W/(m2 sr) per channel, never negative, without the sun's disc; the
-/// ground's below the horizon. Interpolated: within 1 % of clear_sky_radiance_direct() (tests/sky). No
-/// transcendental function.
+/// ground's below the horizon. Interpolated: within 0.3 % of clear_sky_radiance_direct() by day, 2 % at dusk
+/// (tests/sky). No transcendental function.
 Vec3f sky_radiance(const ClearSky& sky, Vec3d direction);
 
 /// The same without tables of directions, along a ray of `steps` steps: the oracle. Above the horizon only.

@@ -14,12 +14,12 @@ struct OvercastSky {
 /// Grey (the white of D65 under a sun of equal channels' scale) with the brightness of a day whose sun stands
 /// at this elevation in [-90, 90] above the clouds: 300 + 21000 sin(elevation) lx on level ground (J.
 /// Krochmann, M. Seidl 1974: Quantitative data on daylight for illuminating engineering, Lighting Research
-/// and Technology 6); below the horizon it fades as the clear twilight does (S. Janiczek, J. DeYoung 1987,
+/// and Technology 6); below the horizon it fades as the clear twilight does (P. Janiczek, J. DeYoung 1987,
 /// see clear_twilight_lux()). `sun_above_air_w_m2` is that of ClearAirParams.
 OvercastSky overcast_sky(double sun_elevation_deg, Vec3d sun_above_air_w_m2, Vec3d ground_albedo);
 
 /// CIE standard overcast sky: zenith times (1 + 2 sin(elevation)) / 3 (P. Moon, D. Spencer 1942: Illumination
-/// from a non-uniform sky; CIE S 011, type 1 of 1955's form).
+/// from a non-uniform sky, Illum. Eng. 37; CIE 1955).
 Vec3f sky_radiance(const OvercastSky& sky, Vec3d direction);
 
 /// Illuminance of level ground by a clear sky and its sun, in lux, for sun elevations in [-18, 90] degrees:

@@ -72,6 +72,7 @@ TEST(PublishedSkies, DayAndTwilightAreAsBrightAsTheAlmanacSays) {
     EXPECT_WITHIN(deep, 0.6, 1.3);
     // Then the night sky itself takes over, which is not here.
     EXPECT_LT(level_lux(clear_sky(air, 0, -18, exec)), clear_twilight_lux(-18) / 10);
+    EXPECT_LT(level_lux(clear_sky(air, 0, -60, exec)), 1e-9);
     // With the lift by refraction, which lasts below the horizon in core/sun.h.
     Range lifted;
     for (const double elevation : {0.0, -3.0, -6.0, -12.0})
