@@ -11,6 +11,7 @@
 #include "core/observer.h"
 #include "core/sky/air_spectrum.h"
 #include "core/sky/exp_lanes.h"
+#include "core/sky/scattered_light.h"
 
 namespace obscura {
 namespace {
@@ -95,6 +96,21 @@ TEST(Air, SunsDiscSetsSmoothly) {
     EXPECT_NEAR(sun_share(0, 0), 0.5, 1e-12);
     EXPECT_EQ(sun_share(0, num::sin_deg(-0.3)), 0);
     EXPECT_NEAR(sun_share(10, -std::sin(std::acos(6371 / 6381.0))), 0.5, 1e-9);
+}
+
+// OPAC's continental average at 550 nm: mean cosine 0.703 (M. Hess, P. Koepke, I. Schult 1998).
+TEST(Air, PhaseFunctionsAreNormal) {
+    double molecules = 0, aerosol = 0, mean_cosine = 0;
+    const int steps = 20000;
+    for (int i = 0; i < steps; ++i) {
+        const double cosine = 2 * (i + 0.5) / steps - 1;
+        molecules += molecules_phase(cosine) / steps;
+        aerosol += aerosol_phase(cosine) / steps;
+        mean_cosine += aerosol_phase(cosine) * cosine / steps;
+    }
+    EXPECT_NEAR(molecules, 1, 1e-6);
+    EXPECT_NEAR(aerosol, 1, 1e-6);
+    EXPECT_NEAR(mean_cosine, 0.703, 1e-5);
 }
 
 TEST(AirSpectrum, OpticalDepthsArePublishedOnes) {
