@@ -208,7 +208,7 @@ SkyGrid sky_grid(const std::function<Vec3f(Vec3d)>& radiance, const Exec& exec) 
 SkyGrid sky_grid(const ImageSky& sky) {
     const Image<Vec3f>& image = sky.pixels;
     // Pixels larger than a cell are taken apart, so that no cell between them stays empty.
-    const int finest = 4 * side, across = (finest + image.width - 1) / image.width;
+    const int finest = 8 * side, across = (finest + image.width - 1) / image.width;
     const int columns = image.width * across, rows = image.height * across;
     SkyGrid grid;
     grid.cells.resize(static_cast<std::size_t>(side) * side);

@@ -25,8 +25,8 @@ struct SkyGrid {
 /// several threads; values must be finite and not negative.
 SkyGrid sky_grid(const std::function<Vec3f(Vec3d)>& radiance, const Exec& exec);
 
-/// Each pixel's light goes to the cells that it covers; nothing is lost, however small a sun in the picture
-/// is.
+/// Each pixel's light goes to the cells that it covers, in pieces of a third of a cell's side; nothing is
+/// lost, however small a sun in the picture is.
 SkyGrid sky_grid(const ImageSky& sky);
 
 /// Irradiance of a surface with this unit normal that sees the whole upper hemisphere in front of it, per
