@@ -3,16 +3,10 @@
 
 #include <vector>
 
+#include "core/observer.h"
 #include "core/vec.h"
 
 namespace obscura {
-
-constexpr double shortest_visible_nm = 380, longest_visible_nm = 780;
-
-/// CIE 1931 2-degree observer, the multi-lobe fit of C. Wyman, P.-P. Sloan, P. Shirley: Simple analytic
-/// approximations to the CIE XYZ color matching functions, JCGT 2(2), 2013. Within 0.014 of the standard's
-/// table everywhere (whose values reach 1.77); never negative between 380 and 780 nm.
-Vec3d observer_xyz(double wavelength_nm);
 
 enum class LightSource { d65, equal, blackbody, sodium, rgb_led, monochromatic };
 
@@ -72,16 +66,5 @@ SpectralRate spectral_rate(const LightSpectrum& light, double cycles_per_scale, 
 /// Throws InputError when a number of wavelengths (0: to be chosen) or a tolerance for that choice makes no
 /// sense.
 void check_sampling(int wavelengths, double tolerance);
-
-/// XYZ (Y = 1 is white) to linear sRGB and back (IEC 61966-2-1, white D65).
-Vec3d srgb_from_xyz(Vec3d xyz);
-Vec3d xyz_from_srgb(Vec3d rgb);
-
-/// Y of a linear sRGB colour.
-double srgb_luminance(Vec3d rgb);
-
-/// Colours outside the sRGB gamut move towards the grey of their own luminance until no channel is negative;
-/// others stay. Luminance is kept; colours without luminance become black.
-Vec3d into_gamut(Vec3d rgb);
 
 }  // namespace obscura

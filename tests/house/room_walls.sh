@@ -9,6 +9,7 @@ export LC_ALL=C
 picture() {
     cat <<'END'
 core
+core/sky         core
 scenes           core
 raster           core
 raster/exact     raster
