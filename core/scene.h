@@ -60,10 +60,11 @@ enum class AreaShape { rectangle, disc };
 struct Light {
     std::string id;
     LightKind kind = LightKind::directional;
-    Vec3d direction{0, -1, 0};  ///< unit, the way the light travels (directional, sun, spot; area: its normal)
-    Vec3d position{0, 0, 0};    ///< metres (point, spot; area: its middle)
-    Vec3f color{1, 1, 1};  ///< irradiance in W/m^2 per channel on a facing surface (directional, sun), radiant
-                           ///< intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
+    Vec3d direction{0, -1,
+                    0};       ///< unit, the way the light travels (directional, sun, spot; area: its normal)
+    Vec3d position{0, 0, 0};  ///< metres (point, spot; area: its middle)
+    Vec3f color{1, 1, 1};     ///< irradiance in W/m^2 per channel on a facing surface (directional, sun),
+                           ///< radiant intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
     double near_m = 0.05,
            range_m = 100;        ///< with a position: shadow depth range; light ends smoothly at range_m
@@ -79,14 +80,27 @@ struct Light {
     friend bool operator==(const Light&, const Light&) = default;
 };
 
-/// Ambient light: a gradient sky seen by every surface without occlusion, and the background. The default is
-/// a clear day under a sun of irradiance 3: the sky sheds about a quarter of that on level ground.
+/// gradient: a mix of colours. The others follow the sun: clear: computed from the air (core/sky); overcast:
+/// the standard one.
+enum class SkyKind { gradient, clear, overcast };
+
+/// The background, and the light that it sheds. The default is a gradient: a clear day under a sun of
+/// irradiance 3; the sky sheds about a quarter of that on level ground.
 struct Sky {
-    Vec3f zenith{0.10f, 0.19f, 0.38f};  ///< radiance
+    SkyKind kind = SkyKind::gradient;
+    Vec3f zenith{0.10f, 0.19f, 0.38f};  ///< radiance, gradient
     Vec3f horizon{0.36f, 0.42f, 0.48f};
     Vec3f ground{0.16f, 0.145f, 0.12f};
-    float ambient = 1.0f;  ///< scale of the light it sheds
-    bool visible = true;   ///< false: background is black
+    double turbidity = 3;                   ///< clear: 2 very clear, 6 hazy
+    Vec3f ground_albedo{0.2f, 0.2f, 0.2f};  ///< clear, overcast
+    float ambient = 1.0f;                   ///< scale of the light it sheds
+    bool visible = true;                    ///< false: background is black
+    bool occlusion = false;                 ///< false: it reaches every surface, whatever stands before
+    int samples = 64;                       ///< occlusion: directions that stand for it, 16, 64, 256 or 1024
+    std::string sun;  ///< the light that clear and overcast skies follow; empty: the first that may be
+    // What follows from that light.
+    double sun_azimuth_deg = 0, sun_elevation_deg = 45;
+    Vec3d sun_above_air{5, 5, 5};  ///< irradiance, W/m^2
     friend bool operator==(const Sky&, const Sky&) = default;
 };
 

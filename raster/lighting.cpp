@@ -68,6 +68,7 @@ ShadeSky shade_sky(const Sky& sky) {
     set(s.horizon, sky.horizon);
     set(s.ground, sky.ground);
     s.ambient = sky.ambient;
+    s.diffuse = sky.occlusion ? 0.0f : 1.0f;
     s.background = sky.visible ? 1.0f : 0.0f;
     return s;
 }

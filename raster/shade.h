@@ -44,12 +44,13 @@ struct ShadeLight {
     float to_light[3] = {0, 1, 0};  ///< directional: unit, against the light's way; spot: against its axis;
                                     ///< patch: against its normal
     float position[3] = {0, 0, 0};  ///< all but directional
-    float color[3] = {0, 0, 0};     ///< irradiance (directional) or radiant intensity, a patch's along its normal
-    float inv_range2 = 0;           ///< all but directional: 1 / range_m^2
+    float color[3] = {0, 0,
+                      0};  ///< irradiance (directional) or radiant intensity, a patch's along its normal
+    float inv_range2 = 0;  ///< all but directional: 1 / range_m^2
     float cos_outer = -1, inv_cone = 1;  ///< spot: smoothstep over (cos - cos_outer) * inv_cone
-    /// patch: radius^2 of a disc as large. On its axis a disc of radiance L sends pi L R^2 / (r^2 + R^2), which
-    /// is never more than pi L, however near (J. H. Lambert, "Photometria", 1760; R. Siegel and J. Howell,
-    /// "Thermal Radiation Heat Transfer", configuration C-21); off it, about its cosine of that.
+    /// patch: radius^2 of a disc as large. On its axis a disc of radiance L sends pi L R^2 / (r^2 + R^2),
+    /// which is never more than pi L, however near (J. H. Lambert, "Photometria", 1760; R. Siegel and J.
+    /// Howell, "Thermal Radiation Heat Transfer", configuration C-21); off it, about its cosine of that.
     float radius2 = 0;
     float two_sided = 0;  ///< patch: 1 shines both ways, 0 along its normal alone
 };
@@ -57,7 +58,8 @@ struct ShadeLight {
 /// Sky radiance by direction: ground below, a straight mix from horizon to zenith above.
 struct ShadeSky {
     float zenith[3], horizon[3], ground[3];
-    float ambient;     ///< scale of the light it sheds on surfaces
+    float ambient;     ///< scale of the light it sheds on surfaces, as if nothing stood before it
+    float diffuse;     ///< 1; 0: its parts shed that light, and only what is mirrored is left
     float background;  ///< 1: seen behind everything; 0: black
 };
 
@@ -74,6 +76,16 @@ struct alignas(64) ShadeBlock {
         through_b[block_samples];  ///< transmitted, with 1 / pi; only where block.thin
     float f0_r[block_samples], f0_g[block_samples], f0_b[block_samples];
     float r[block_samples], g[block_samples], b[block_samples];  ///< radiance, W / (m^2 sr)
+    // With parts of the sky alone:
+    float mirror_x[block_samples], mirror_y[block_samples], mirror_z[block_samples];  ///< the view mirrored
+    float mirrored_r[block_samples], mirrored_g[block_samples],
+        mirrored_b[block_samples];  ///< what is mirrored of the sky, over the weights of all parts
+};
+
+/// A part of the sky that sheds its light from one direction.
+struct ShadeSkyPart {
+    float to_light[3];  ///< unit
+    float color[3];     ///< irradiance on a facing surface
 };
 
 constexpr float dielectric_f0 = 0.04f;
@@ -81,11 +93,19 @@ constexpr float inv_pi = 0.318309886183790672f;
 
 /// shade_begin: fills `shade`; radiance = emission + ambient light, or the sky where nothing is covered.
 /// shade_light: adds one light; visibility in [0, 1] per sample, null = 1 everywhere.
-#define OBSCURA_SHADE_BLOCK                                                                            \
-    void shade_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky, \
-                     const CameraRays& rays, ShadeBlock& shade) noexcept;                              \
-    void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const float* visibility,    \
-                     ShadeBlock& shade) noexcept;
+/// shade_sky_begin, after shade_begin: what surfaces mirror of `sky`, of which shade_sky_part takes away a
+/// share for each of the parts that does not reach them. All parts that a sample asks must be told at once. A
+/// part's share is its weight max(mirrored view . part, 0)^8 of the sum of all: approximate, since mirrors
+/// show one direction and few parts stand for all. shade_sky_part also adds the part's diffuse light.
+#define OBSCURA_SHADE_BLOCK                                                                                \
+    void shade_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky,     \
+                     const CameraRays& rays, ShadeBlock& shade) noexcept;                                  \
+    void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const float* visibility,        \
+                     ShadeBlock& shade) noexcept;                                                          \
+    void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky, \
+                         const ShadeSkyPart* parts, std::int32_t count, ShadeBlock& shade) noexcept;       \
+    void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const float* visibility,    \
+                        ShadeBlock& shade) noexcept;
 namespace ref {
 OBSCURA_SHADE_BLOCK
 }

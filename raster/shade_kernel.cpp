@@ -13,6 +13,10 @@ OBSCURA_INLINE F32 fifth_power(const F32& x) {
     const F32 x2 = x * x;
     return (x2 * x2) * x;
 }
+OBSCURA_INLINE F32 eighth_power(const F32& x) {
+    const F32 x2 = x * x, x4 = x2 * x2;
+    return x4 * x4;
+}
 OBSCURA_INLINE F32 schlick(const F32& f0, const F32& rest) {
     return f0 + (one() - f0) * rest;
 }
@@ -89,16 +93,21 @@ OBSCURA_INLINE MaterialLanes read_materials(const ShadeMaterial* materials, cons
     return v;
 }
 
-OBSCURA_INLINE Vec3x16 ambient(const ShadeSky& sky, const MaterialLanes& m, const Vec3x16& diffuse,
-                               const Vec3x16& f0, const Vec3x16& n, const Vec3x16& v, const F32& nv) {
-    const Vec3x16 irradiance = sky_irradiance(sky, n.y);
-    const F32 mirror_y = (splat(2.0f) * nv) * n.y - v.y;
-    const Vec3x16 mirrored = mix(smeared_radiance(sky, mirror_y, m.sharpness),
-                                 sky_irradiance(sky, mirror_y) * splat(inv_pi), m.alpha);
+/// What a surface mirrors of the sky, before its scale.
+OBSCURA_INLINE Vec3x16 mirrored(const ShadeSky& sky, const MaterialLanes& m, const Vec3x16& f0, const F32& ny,
+                                const F32& vy, const F32& nv) {
+    const F32 mirror_y = (splat(2.0f) * nv) * ny - vy;
+    const Vec3x16 seen = mix(smeared_radiance(sky, mirror_y, m.sharpness),
+                             sky_irradiance(sky, mirror_y) * splat(inv_pi), m.alpha);
     const F32 rest = fifth_power(one() - nv);
     const auto fresnel = [&](const F32& f) { return f + (max(m.gloss, f) - f) * rest; };
-    const Vec3x16 f = {fresnel(f0.x), fresnel(f0.y), fresnel(f0.z)};
-    return (diffuse * irradiance + f * mirrored) * splat(sky.ambient);
+    return Vec3x16{fresnel(f0.x), fresnel(f0.y), fresnel(f0.z)} * seen;
+}
+
+OBSCURA_INLINE Vec3x16 ambient(const ShadeSky& sky, const MaterialLanes& m, const Vec3x16& diffuse,
+                               const Vec3x16& f0, const Vec3x16& n, const Vec3x16& v, const F32& nv) {
+    return ((diffuse * sky_irradiance(sky, n.y)) * splat(sky.diffuse) + mirrored(sky, m, f0, n.y, v.y, nv)) *
+           splat(sky.ambient);
 }
 
 Vec3x16 surface_radiance(const SurfaceBlock& s, const ShadeMaterial* materials, const ShadeSky& sky,
@@ -242,6 +251,54 @@ void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const flo
             return add_light<ShadeLightKind::spot>(surface, light, visibility, shade);
         case ShadeLightKind::patch:
             return add_light<ShadeLightKind::patch>(surface, light, visibility, shade);
+    }
+}
+
+void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky,
+                     const ShadeSkyPart* parts, std::int32_t count, ShadeBlock& shade) noexcept {
+    for (int at = 0; at < block_samples; at += lanes) {
+        const std::uint32_t covered = surface.covered[at / 16];
+        if (covered == 0) continue;
+        const MaterialLanes m = read_materials(materials, surface.material + at, covered);
+        const Vec3x16 n = load3(surface.nx + at, surface.ny + at, surface.nz + at),
+                      v = load3(shade.vx + at, shade.vy + at, shade.vz + at);
+        const Vec3x16 f0 = load3(shade.f0_r + at, shade.f0_g + at, shade.f0_b + at);
+        const F32 nv = load(shade.nv + at);
+        const Vec3x16 r = n * (splat(2.0f) * nv) - v;
+        F32 weights = splat(1e-6f);
+        for (std::int32_t i = 0; i < count; ++i)
+            weights = weights + eighth_power(max(dot(r, splat3(parts[i].to_light)), splat(0.0f)));
+        store3(shade.mirror_x + at, shade.mirror_y + at, shade.mirror_z + at, r);
+        const Vec3x16 seen = mirrored(sky, m, f0, n.y, v.y, nv) * splat(sky.ambient);
+        store3(shade.mirrored_r + at, shade.mirrored_g + at, shade.mirrored_b + at, seen * (one() / weights));
+    }
+}
+
+void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const float* visibility,
+                    ShadeBlock& shade) noexcept {
+    const Vec3x16 l = splat3(part.to_light), color = splat3(part.color);
+    for (int at = 0; at < block_samples; at += lanes) {
+        const std::uint32_t covered = surface.covered[at / 16];
+        if (covered == 0) continue;
+        const F32 seen = load(visibility + at), hidden = one() - seen;
+        const Vec3x16 n = load3(surface.nx + at, surface.ny + at, surface.nz + at);
+        const F32 signed_nl = dot(n, l), nl = max(signed_nl, splat(0.0f)), veil = load(shade.veil + at);
+        Vec3x16 out =
+            load3(shade.diffuse_r + at, shade.diffuse_g + at, shade.diffuse_b + at) * (let_in(veil, nl) * nl);
+        const std::uint32_t thin = surface.thin[at / 16];
+        if (thin != 0) {
+            const F32 back = max(signed_nl ^ splat(-0.0f), splat(0.0f));
+            const Vec3x16 through = load3(shade.through_r + at, shade.through_g + at, shade.through_b + at) *
+                                    (let_in(veil, back) * back);
+            out = select(mask_of(thin), out + through, out);
+        }
+        const Vec3x16 r = load3(shade.mirror_x + at, shade.mirror_y + at, shade.mirror_z + at);
+        const F32 weight = eighth_power(max(dot(r, l), splat(0.0f))) * hidden;
+        const Vec3x16 taken =
+            load3(shade.mirrored_r + at, shade.mirrored_g + at, shade.mirrored_b + at) * weight;
+        const Vec3x16 sum = load3(shade.r + at, shade.g + at, shade.b + at);
+        const Vec3x16 next = (sum + (out * color) * seen) - taken;
+        store3(shade.r + at, shade.g + at, shade.b + at, select(mask_of(covered), next, sum));
     }
 }
 

@@ -15,6 +15,11 @@ float fifth_power(float x) {
     return (x2 * x2) * x;
 }
 
+float eighth_power(float x) {
+    const float x2 = x * x, x4 = x2 * x2;
+    return x4 * x4;
+}
+
 /// Schlick: f0 at normal incidence, 1 at grazing; `rest` = (1 - cos)^5.
 float schlick(float f0, float rest) {
     return f0 + (1.0f - f0) * rest;
@@ -47,20 +52,25 @@ Vec3f smeared_radiance(const ShadeSky& sky, float y, float sharpness) {
     return mix(vec(sky.ground), mix(vec(sky.horizon), vec(sky.zenith), lane_max(y, 0.0f)), above);
 }
 
-/// Light of the sky: its irradiance over the diffuse part, and for the specular part the radiance from the
-/// mirror direction, blurred towards the mean as alpha grows (no occlusion in either).
-Vec3f ambient(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& shade, Vec3f n, Vec3f v,
-              int at) {
+/// What a surface mirrors of the sky, before its scale: the radiance from the mirror direction, blurred
+/// towards the mean as alpha grows.
+Vec3f mirrored(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& shade, Vec3f n, Vec3f v,
+               int at) {
     const float nv = shade.nv[at];
-    const Vec3f irradiance = sky_irradiance(sky, n.y);
     const float mirror_y = (2.0f * nv) * n.y - v.y;
-    const Vec3f mirrored =
+    const Vec3f seen =
         mix(smeared_radiance(sky, mirror_y, m.sharpness), sky_irradiance(sky, mirror_y) * inv_pi, m.alpha);
     const float rest = fifth_power(1.0f - nv);
     const auto fresnel = [&](float f0) { return f0 + (lane_max(m.gloss, f0) - f0) * rest; };
-    const Vec3f f = {fresnel(shade.f0_r[at]), fresnel(shade.f0_g[at]), fresnel(shade.f0_b[at])};
+    return Vec3f{fresnel(shade.f0_r[at]), fresnel(shade.f0_g[at]), fresnel(shade.f0_b[at])} * seen;
+}
+
+/// Light of the sky without occlusion: its irradiance over the diffuse part, and what is mirrored.
+Vec3f ambient(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& shade, Vec3f n, Vec3f v,
+              int at) {
     const Vec3f diffuse = {shade.diffuse_r[at], shade.diffuse_g[at], shade.diffuse_b[at]};
-    return (diffuse * irradiance + f * mirrored) * sky.ambient;
+    return ((diffuse * sky_irradiance(sky, n.y)) * sky.diffuse + mirrored(sky, m, shade, n, v, at)) *
+           sky.ambient;
 }
 
 void begin_sample(const SurfaceBlock& s, const ShadeMaterial* materials, const ShadeSky& sky,
@@ -205,6 +215,52 @@ void shade_light(const SurfaceBlock& surface, const ShadeLight& light, const flo
         shade.r[at] = shade.r[at] + reflected.x * arriving.x;
         shade.g[at] = shade.g[at] + reflected.y * arriving.y;
         shade.b[at] = shade.b[at] + reflected.z * arriving.z;
+    }
+}
+
+void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky,
+                     const ShadeSkyPart* parts, std::int32_t count, ShadeBlock& shade) noexcept {
+    for (int at = 0; at < block_samples; ++at) {
+        if ((surface.covered[at / 16] >> (at & 15) & 1u) == 0) continue;
+        const Vec3f n{surface.nx[at], surface.ny[at], surface.nz[at]},
+            v{shade.vx[at], shade.vy[at], shade.vz[at]};
+        const Vec3f r = n * (2.0f * shade.nv[at]) - v;
+        float weights = 1e-6f;
+        for (std::int32_t i = 0; i < count; ++i)
+            weights = weights + eighth_power(lane_max(dot(r, vec(parts[i].to_light)), 0.0f));
+        const ShadeMaterial& m = materials[static_cast<std::size_t>(surface.material[at])];
+        const Vec3f seen = (mirrored(sky, m, shade, n, v, at) * sky.ambient) * (1.0f / weights);
+        shade.mirror_x[at] = r.x;
+        shade.mirror_y[at] = r.y;
+        shade.mirror_z[at] = r.z;
+        shade.mirrored_r[at] = seen.x;
+        shade.mirrored_g[at] = seen.y;
+        shade.mirrored_b[at] = seen.z;
+    }
+}
+
+void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const float* visibility,
+                    ShadeBlock& shade) noexcept {
+    const Vec3f l = vec(part.to_light), color = vec(part.color);
+    for (int at = 0; at < block_samples; ++at) {
+        if ((surface.covered[at / 16] >> (at & 15) & 1u) == 0) continue;
+        const float seen = visibility[at], hidden = 1.0f - seen;
+        const float signed_nl = dot(Vec3f{surface.nx[at], surface.ny[at], surface.nz[at]}, l),
+                    nl = lane_max(signed_nl, 0.0f), veil = shade.veil[at];
+        Vec3f out =
+            Vec3f{shade.diffuse_r[at], shade.diffuse_g[at], shade.diffuse_b[at]} * (let_in(veil, nl) * nl);
+        if ((surface.thin[at / 16] >> (at & 15) & 1u) != 0) {
+            const float back = lane_max(-signed_nl, 0.0f);
+            out = out + Vec3f{shade.through_r[at], shade.through_g[at], shade.through_b[at]} *
+                            (let_in(veil, back) * back);
+        }
+        const Vec3f r{shade.mirror_x[at], shade.mirror_y[at], shade.mirror_z[at]};
+        const float weight = eighth_power(lane_max(dot(r, l), 0.0f)) * hidden;
+        const Vec3f arriving = (out * color) * seen,
+                    taken = Vec3f{shade.mirrored_r[at], shade.mirrored_g[at], shade.mirrored_b[at]} * weight;
+        shade.r[at] = (shade.r[at] + arriving.x) - taken.x;
+        shade.g[at] = (shade.g[at] + arriving.y) - taken.y;
+        shade.b[at] = (shade.b[at] + arriving.z) - taken.z;
     }
 }
 

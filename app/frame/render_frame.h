@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/frame/frame.h"
+#include "app/frame/frame_sky.h"
 #include "app/frame/glare.h"
 #include "app/frame/light_shadow.h"
 #include "app/frame/tile.h"
@@ -25,6 +26,7 @@ struct FrameCache {
     /// Of the lights with shadows, in scene order. One is kept while its light stays, colour aside; when it
     /// was built for one picture (scope "frame"), also only while the camera stays.
     std::vector<LightShadow> shadows;
+    std::optional<FrameSky> sky;          ///< once the scene's is more than a gradient seen by everything
     FileAccess access;                    ///< where shadow caches may lie
     std::optional<TreeFileKey> geometry;  ///< geometry_key() of the mesh, once a cache asks
     std::optional<KeptPsf> psf;           ///< of the lens, once something glared

@@ -68,7 +68,7 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
     // Of lights with a size one pass at a time holds what some of their points see.
     std::int64_t pass = 0;
     for (const SceneLight& light : lights)
-        pass = std::max(pass, is_soft(light) ? soft_pass_bytes(mesh, light.light.kind) : 0);
+        pass = std::max(pass, is_soft(light) ? soft_pass_bytes(mesh, is_parallel(light.light.kind)) : 0);
     return bytes + pass;
 }
 

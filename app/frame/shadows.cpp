@@ -277,6 +277,21 @@ void settle_soft_lights(const Work& work) {
     }
 }
 
+/// The sky that the pictures show and are lit by.
+void give_sky(const Scene& scene, const Exec& exec, FrameCache& cache, std::span<TileScene> pictures) {
+    const Sky& sky = scene.sky;
+    if (sky.kind == SkyKind::gradient && !sky.occlusion) return;
+    if (!cache.sky || cache.sky->sky != sky) cache.sky = frame_sky(sky, exec);
+    for (TileScene& tiles : pictures) {
+        tiles.sky = cache.sky->shade;
+        tiles.sky_model = cache.sky->model ? &*cache.sky->model : nullptr;
+        if (cache.sky->lights.empty() || scene.mesh.triangles.empty()) continue;
+        SoftLight& soft = tiles.soft.emplace_back();
+        soft.is_sky = true;
+        soft.points = cache.sky->lights;
+    }
+}
+
 }  // namespace
 
 bool casts_shadows(const SceneLight& light) {
@@ -312,9 +327,10 @@ std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
 
 bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
                      std::span<TileScene> pictures, FrameStats& stats, const std::atomic<bool>* cancel) {
+    const Stopwatch watch;
+    give_sky(scene, exec, cache, pictures);
     // A scene without geometry has nothing to cast or to receive.
     if (cache.bounds.empty()) return true;
-    const Stopwatch watch;
     const Work work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats,
                     cancel};
     plan_shadows(work);

@@ -20,23 +20,26 @@ namespace {
 constexpr std::int64_t together_bytes = std::int64_t{192} << 20;
 
 /// Points that are asked as one, and what they hold.
-int points_as_one(LightKind kind) {
-    return is_parallel(kind) ? 16 : 1;
+int points_as_one(bool disc) {
+    return disc ? 16 : 1;
 }
-std::int64_t as_one_bytes(const MeshSize& mesh, LightKind kind) {
-    return is_parallel(kind) ? soft_parts_bytes(mesh.vertices) : casters_bytes(mesh.triangles * 5 / 4);
+std::int64_t as_one_bytes(const MeshSize& mesh, bool disc) {
+    return disc ? soft_parts_bytes(mesh.vertices) : casters_bytes(mesh.triangles * 5 / 4);
 }
 
 /// Samples of a pixel that ask other points than their neighbours do. Points that are asked as one cost no
 /// more than one of them.
 int strata(const SoftLight& soft, const TileScene& tiles) {
-    const auto points = static_cast<int>(soft.points.size()), as_one = points_as_one(soft.whole.kind);
-    return std::clamp(points / as_one, 1, static_cast<int>(tiles.pattern.size()));
+    const auto points = static_cast<int>(soft.points.size()), as_one = points_as_one(soft.middle.has_value());
+    int m = std::clamp(points / as_one, 1, static_cast<int>(tiles.pattern.size()));
+    while (points % m != 0)
+        m /= 4;
+    return m;
 }
 
 int passes_of_stratum(const SoftLight& soft, const TileScene& tiles) {
     const auto points = static_cast<int>(soft.points.size()) / strata(soft, tiles);
-    const int together = soft_points_together(size_of(*tiles.mesh), soft.whole.kind);
+    const int together = soft_points_together(size_of(*tiles.mesh), soft.middle.has_value());
     return (points + together - 1) / together;
 }
 
@@ -45,6 +48,7 @@ TileScene dark(const TileScene& tiles) {
     TileScene t = tiles;
     t.lights.clear();
     t.soft.clear();
+    t.sky_model = nullptr;
     t.sky.ambient = t.sky.background = 0;
     for (ShadeMaterial& m : t.materials)
         std::fill_n(m.emission, 3, 0.0f);
@@ -64,6 +68,16 @@ class Pass {
         pass_.stride = m;
         pass_.shadow_lights = static_cast<float>(tiles.shadow_lights() * of_sample);
         tiles_.pass = &pass_;
+        if (!soft.is_sky) return;
+        // What is mirrored is shared out among all parts that a sample asks.
+        tiles_.sky = tiles.sky;
+        tiles_.sky.background = 0;
+        for (int i = 0; i < of_sample; ++i) {
+            ShadeSkyPart& part = pass_.sky.emplace_back();
+            const ShadeLight light =
+                shade_light_of(soft.points[static_cast<std::size_t>(stratum + i * m)], {});
+            std::copy_n(light.to_light, 3, part.to_light);
+        }
     }
 
     /// The tiles of the pass; null when cancelled. Adds to the seconds that making it takes.
@@ -159,15 +173,15 @@ float widest_penumbra(std::span<const TileScene> pictures, const LightShadow& sh
     return widest;
 }
 
-int soft_points_together(const MeshSize& mesh, LightKind kind) {
-    const std::int64_t bytes = std::max<std::int64_t>(as_one_bytes(mesh, kind), 1);
-    const int as_one = points_as_one(kind);
+int soft_points_together(const MeshSize& mesh, bool disc) {
+    const std::int64_t bytes = std::max<std::int64_t>(as_one_bytes(mesh, disc), 1);
+    const int as_one = points_as_one(disc);
     return as_one *
            static_cast<int>(std::clamp<std::int64_t>(together_bytes / bytes, 1, most_soft_together / as_one));
 }
 
-std::int64_t soft_pass_bytes(const MeshSize& mesh, LightKind kind) {
-    return soft_points_together(mesh, kind) / points_as_one(kind) * as_one_bytes(mesh, kind);
+std::int64_t soft_pass_bytes(const MeshSize& mesh, bool disc) {
+    return soft_points_together(mesh, disc) / points_as_one(disc) * as_one_bytes(mesh, disc);
 }
 
 int soft_passes(const TileScene& tiles) {
@@ -183,8 +197,9 @@ bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomi
     TriangleSetup scratch;
     for (const SoftLight& soft : tiles.soft) {
         const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
-        const int together = soft_points_together(size_of(*tiles.mesh), soft.whole.kind);
-        double& seconds = stats[soft.shadow].build.build_s;
+        const int together = soft_points_together(size_of(*tiles.mesh), soft.middle.has_value());
+        double of_sky = 0;
+        double& seconds = soft.is_sky ? of_sky : stats[soft.shadow].build.build_s;
         for (int stratum = 0; stratum < m; ++stratum) {
             for (int begin = 0; begin < points; begin += together) {
                 Pass pass(tiles, soft, stratum, begin, std::min(together, points - begin));

@@ -13,6 +13,7 @@
 #include "core/isa.h"
 #include "core/mesh_memory.h"
 #include "raster/exact/exact_soft.h"
+#include "raster/shade.h"
 
 namespace obscura {
 
@@ -26,9 +27,8 @@ struct SoftLight {
     std::size_t shadow = 0;       ///< and among those with shadows
     Light whole;
     std::vector<Light> points;  ///< light_samples() of it
-    std::optional<ExactLight>
-        middle;  ///< parallel light: what nothing stands before is found for all at once
-    ExactSpread spread;
+    bool is_sky = false;  ///< they are the sky's (FrameSky::lights), not one light's, and count in no AOV
+    std::optional<ExactLight> middle;  ///< parallel light: for all points at once
 };
 
 /// Which of a picture's samples a pass is of, and what all of its lights have in common.
@@ -36,6 +36,7 @@ struct SoftPass {
     const SoftLight* light = nullptr;
     const ExactSoft* soft = nullptr;  ///< parallel light: how its shadows are found, for all of the lights
     int first = 0, stride = 1;        ///< samples of the pattern
+    std::vector<ShadeSkyPart> sky;    ///< the sky: all parts that the samples ask, in whatever pass
     float shadow_lights = 1;          ///< a pass's light is one of so many in Frame::shadow
 };
 
@@ -50,9 +51,10 @@ float widest_penumbra(std::span<const TileScene> pictures, const LightShadow& sh
 
 constexpr int most_soft_together = 64;
 
-/// Points of a light that one pass asks, most_soft_together at most, of such a mesh, and the bytes of what it then holds.
-int soft_points_together(const MeshSize& mesh, LightKind kind);
-std::int64_t soft_pass_bytes(const MeshSize& mesh, LightKind kind);
+/// Points of a light that one pass asks, most_soft_together at most, and the bytes of what it then holds.
+/// `disc`: of parallel light with a size; else each point has casters of its own.
+int soft_points_together(const MeshSize& mesh, bool disc);
+std::int64_t soft_pass_bytes(const MeshSize& mesh, bool disc);
 
 /// How many passes the soft lights of the tiles take.
 int soft_passes(const TileScene& tiles);

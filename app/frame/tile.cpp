@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/frame/exact_tile.h"
+#include "app/frame/frame_sky.h"
 #include "core/stopwatch.h"
 #include "raster/depth_tile.h"
 #include "raster/resolve.h"
@@ -131,6 +132,24 @@ void add_pixels(const TileRect& tile, int first_row, const TileWindow& window, f
     }
 }
 
+/// Parts of the sky, after shade_begin().
+void shade_sky(const TileScene& scene, const ExactBlock& exact, Isa isa, TileWork& work) {
+    const std::vector<ShadeSkyPart>& all = scene.pass->sky;
+    OBSCURA_DISPATCH(isa, shade_sky_begin, work.surface, scene.materials.data(), scene.sky, all.data(),
+                     static_cast<std::int32_t>(all.size()), work.shade);
+    // What is mirrored of it is in the picture already.
+    for (float* sum : {work.shade.r, work.shade.g, work.shade.b})
+        std::fill_n(sum, block_samples, 0.0f);
+    for (std::size_t l = 0; l < scene.lights.size(); ++l) {
+        ShadeSkyPart part;
+        std::copy_n(scene.lights[l].shade.to_light, 3, part.to_light);
+        std::copy_n(scene.lights[l].shade.color, 3, part.color);
+        std::fill_n(work.visibility, block_samples, 1.0f);
+        exact.tile->darken(l, exact.k, exact.first_row, work.visibility);
+        OBSCURA_DISPATCH(isa, shade_sky_part, work.surface, part, work.visibility, work.shade);
+    }
+}
+
 }  // namespace
 
 TileRect tile_visibility(const TileScene& scene, int column, int row, SamplePosition sample, Isa isa,
@@ -166,6 +185,8 @@ void uncover_outside(int width, int rows, SurfaceBlock& surface) {
 void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool shadow, TileWork& work) {
     OBSCURA_DISPATCH(isa, shade_begin, work.surface, scene.materials.data(), scene.sky, scene.rays,
                      work.shade);
+    if (scene.sky_model != nullptr && scene.sky.background > 0) draw_sky(*scene.sky_model, work);
+    if (scene.pass != nullptr && scene.pass->light->is_sky) return shade_sky(scene, exact, isa, work);
     // Of those too whose passes are still to come.
     const float with_shadow =
         scene.pass != nullptr ? scene.pass->shadow_lights : static_cast<float>(scene.shadow_lights());
@@ -246,8 +267,9 @@ void add_tile(const TileScene& scene, int column, int row, bool shadow, Isa isa,
         exact.restore(0, work);
         for (int first_row = begin_row; first_row < window.y1; first_row += block_rows) {
             block_surface(scene, tile, first_row, isa, work);
-            block_shade(scene, {&exact, 0, first_row}, isa, shadow, work);
-            add_pixels(tile, first_row, window, scale, shadow, work, frame);
+            const bool of_shadow = shadow && !scene.pass->light->is_sky;
+            block_shade(scene, {&exact, 0, first_row}, isa, of_shadow, work);
+            add_pixels(tile, first_row, window, scale, of_shadow, work, frame);
         }
     }
 }

@@ -12,6 +12,7 @@
 #include "app/frame/frame.h"
 #include "app/frame/soft_light.h"
 #include "app/scene/scene.h"
+#include "core/sky/sky_model.h"
 #include "filters/pcf.h"
 #include "raster/depth_map.h"
 #include "raster/exact/exact.h"
@@ -51,6 +52,7 @@ struct TileScene {
     std::vector<SoftLight> soft;     ///< lights with a size, which are not among `lights`
     const SoftPass* pass = nullptr;  ///< the tiles add what `lights` shed to a picture that is there
     ShadeSky sky;
+    const SkyModel* sky_model = nullptr;  ///< what is seen behind everything; null: `sky`
     std::span<const SamplePosition> pattern;
     bool textured = false;  ///< some material has a texture
 
@@ -61,7 +63,9 @@ struct TileScene {
     int shadow_lights() const {
         const auto own =
             std::count_if(lights.begin(), lights.end(), [](const TileLight& l) { return l.casts_shadows(); });
-        return static_cast<int>(own) + static_cast<int>(soft.size());
+        const auto sized =
+            std::count_if(soft.begin(), soft.end(), [](const SoftLight& l) { return !l.is_sky; });
+        return static_cast<int>(own + sized);
     }
 
     bool has_exact() const {

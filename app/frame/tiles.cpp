@@ -90,7 +90,8 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
     for (const ExactCounts& n : counts)
         frame.stats.exact += n;
     for (std::size_t l = 0; l < lights; ++l) {
-        if (!scene.lights[l].casts_shadows()) continue;
+        const bool of_sky = scene.pass != nullptr && scene.pass->light->is_sky;
+        if (!scene.lights[l].casts_shadows() || of_sky) continue;
         double& sum = frame.stats.lights[scene.lights[l].shadow].lookup_s;
         for (std::size_t i = 0; i < tiles; ++i)
             sum += lookup_s[i * lights + l];

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "app/frame/exact_tile.h"
+#include "app/frame/frame_sky.h"
 #include "app/frame/shadows.h"
 #include "app/scene/light_kinds.h"
 #include "core/count_text.h"
@@ -218,6 +219,7 @@ Vec3f PixelStory::sample(int x, int y, SamplePosition position) {
     const int at = (y - tile.y0 - first_row) * frame_tile_side + (x - tile.x0);
     block_surface(tiles_, tile, first_row, Isa::ref, *work_);
     ref::shade_begin(work_->surface, tiles_.materials.data(), tiles_.sky, tiles_.rays, work_->shade);
+    if (tiles_.sky_model != nullptr && tiles_.sky.background > 0) draw_sky(*tiles_.sky_model, *work_);
     if (!is(work_->surface.covered, at)) {
         const ShadeBlock& shade = work_->shade;
         say("    nothing but sky in direction {}", text_of(-Vec3f{shade.vx[at], shade.vy[at], shade.vz[at]}));
@@ -246,13 +248,17 @@ Vec3f PixelStory::soft_sample(const TileScene& pass, int x, int y, std::size_t s
     exact.restore(0, *work_);
     block_surface(pass, tile, first_row, Isa::ref, *work_);
     if (!is(work_->surface.covered, at)) return {0, 0, 0};
-    ref::shade_begin(work_->surface, pass.materials.data(), pass.sky, pass.rays, work_->shade);
     int lit = 0;
     for (std::size_t l = 0; l < pass.lights.size(); ++l) {
         std::fill_n(work_->visibility, block_samples, 1.0f);
         exact.darken(l, 0, first_row, work_->visibility);
         lit += work_->visibility[at] > 0 ? 1 : 0;
-        ref::shade_light(work_->surface, pass.lights[l].shade, work_->visibility, work_->shade);
+    }
+    block_shade(pass, {&exact, 0, first_row}, Isa::ref, false, *work_);
+    if (pass.pass->light->is_sky) {
+        say("  sample {}, sky: {} of {} directions reach it, radiance {}", sample, lit, pass.lights.size(),
+            text_of(radiance(at)));
+        return radiance(at);
     }
     const Light& source = pass.pass->light->whole;
     say("  sample {}, light \"{}\" ({}, with a size): {} of {} points reach it, radiance {}", sample,

@@ -33,13 +33,45 @@ const KeyRows<Material>& material_rows() {
     return rows;
 }
 
+constexpr Word<SkyKind> sky_kind_words[] = {
+    {"gradient", SkyKind::gradient}, {"clear", SkyKind::clear}, {"overcast", SkyKind::overcast}};
+
 const KeyRows<Sky>& sky_rows() {
     static const KeyRows<Sky> rows{
+        word_row(
+            &Sky::kind, sky_kind_words, "model",
+            "gradient: a mix of the three colours below. clear: computed from the air, for where the sun "
+            "stands, dusk included; a sun without irradiance_w_m2 then has the colour that this air "
+            "leaves it. overcast: three times as bright above as at the horizon, as bright as a day of "
+            "that sun; such a sun then sheds no light of its own."),
+        key_row(
+            &Sky::turbidity,
+            number_key("turbidity", "Clear: how hazy the air is; 2 is very clear, 6 hazy.").in({1.7, 10})),
+        key_row(&Sky::ground_albedo, vec3_or_number_key("ground_albedo",
+                                                        "Clear and overcast: share of light that the ground "
+                                                        "around sends back, per channel.")
+                                         .in(unit_share)),
+        key_row_if_given(&Sky::sun,
+                         name_key("sun",
+                                  "Clear and overcast: id of the light whose direction the sky follows; "
+                                  "the first sun, else the first directional light, when not given.")),
+        key_row(&Sky::occlusion,
+                boolean_key("occlusion",
+                            "Whether what stands before the sky keeps its light off. true: light comes from "
+                            "`samples` directions, with exact shadows; what is mirrored of it is dimmed as "
+                            "much of it as is hidden. Surfaces do not light one another. false: it reaches "
+                            "every surface, in closed rooms, too, and costs nothing.")),
+        key_row(&Sky::samples,
+                integer_key("samples",
+                            "Occlusion: directions that each pixel asks, shared out among its own "
+                            "samples.")
+                    .one_of({16, 64, 256, 1024})),
         key_row(&Sky::zenith,
-                vec3_or_number_key("zenith_w_m2_sr", "Radiance straight above.").in(brightness)),
+                vec3_or_number_key("zenith_w_m2_sr", "Gradient: radiance straight above.").in(brightness)),
         key_row(&Sky::horizon,
-                vec3_or_number_key("horizon_w_m2_sr", "Radiance at the horizon.").in(brightness)),
-        key_row(&Sky::ground, vec3_or_number_key("ground_w_m2_sr", "Radiance from below.").in(brightness)),
+                vec3_or_number_key("horizon_w_m2_sr", "Gradient: radiance at the horizon.").in(brightness)),
+        key_row(&Sky::ground,
+                vec3_or_number_key("ground_w_m2_sr", "Gradient: radiance from below.").in(brightness)),
         key_row(&Sky::ambient,
                 number_key("ambient", "Scale of the light the sky sheds on surfaces.").in({0, 1000})),
         key_row(&Sky::visible,
@@ -62,11 +94,7 @@ const TableSpec& material_table() {
 
 const TableSpec& sky_table() {
     static const TableSpec spec{
-        "[sky]",
-        "A gradient sky: background, and ambient light that reaches every surface without occlusion.",
-        keys_of(sky_rows()),
-        "",
-        {}};
+        "[sky]", "The sky: background, and the light that it sheds.", keys_of(sky_rows()), "", {}};
     return spec;
 }
 

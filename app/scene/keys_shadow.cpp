@@ -50,10 +50,11 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 .in({0, 100})),
         count_or_word_row(
             &ShadowSettings::samples, "auto", auto_samples,
-            integer_key("samples",
-                        "Exact, of a light with a size: how many points of it each pixel asks, shared out among "
-                        "the pixel's own samples; 1 is its middle, whose shadow is hard. \"auto\", the default: "
-                        "as many as the widest penumbra in the picture is pixels wide, 256 at most.")
+            integer_key(
+                "samples",
+                "Exact, of a light with a size: how many points of it each pixel asks, shared out among "
+                "the pixel's own samples; 1 is its middle, whose shadow is hard. \"auto\", the default: "
+                "as many as the widest penumbra in the picture is pixels wide, 256 at most.")
                 .one_of({1, 4, 16, 64, 256, 1024})),
         word_row_if_given(&ShadowSettings::receivers, receivers_words, "receivers",
                           "As in [render], whose value is the default."),

@@ -216,6 +216,30 @@ void check_frames(const SceneDocument& document, const std::vector<std::string>&
     }
 }
 
+/// A sky that follows the sun needs one.
+void check_sky(const SceneTable& root, const std::vector<std::string>& light_ids, const Sources& sources) {
+    const SceneTable& sky = subtable(root, "sky");
+    if (text(sky, "model") == "gradient") return;
+    const std::string id = sky.has("sun") ? text(sky, "sun") : "";
+    if (!id.empty()) require_known(id, place_of(sky, "sun"), light_ids, "light", sources);
+    bool found = false;
+    for (const SceneTable* light : subtables(root, "light")) {
+        const bool parallel = is_parallel(light_kind_of(*light).kind);
+        if (!id.empty() && text(*light, "id") == id && !parallel) {
+            fail_at(place_of(sky, "sun"), sources,
+                    fmt::format("light '{}' has no direction that the sky could follow; it must be a sun or "
+                                "directional",
+                                id));
+        }
+        found = found || parallel;
+    }
+    if (!found) {
+        fail_at(place_of(sky, "model"), sources,
+                fmt::format("'model' = \"{}\" needs a light of type \"sun\" or \"directional\" to follow",
+                            text(sky, "model")));
+    }
+}
+
 void check_size(const SceneDocument& document) {
     const Size2 size = size2(subtable(document.root, "render"), "size_px");
     const std::int64_t limit = integer(subtable(document.root, "limits"), "image_px");
@@ -243,6 +267,7 @@ void apply_rules(SceneDocument& document) {
 
     const std::vector<std::string> light_ids = unique_ids(root, "light", sources);
     merge_shadows(root, light_ids, sources);
+    check_sky(root, light_ids, sources);
     check_frames(document, light_ids);
     check_stereo(document, mesh_ids, materials);
 }

@@ -1,0 +1,34 @@
+#pragma once
+// The sky of a frame: what is seen of it, and the lights that stand for it.
+
+#include <optional>
+#include <vector>
+
+#include "core/isa.h"
+#include "core/scene.h"
+#include "core/sky/sky_model.h"
+#include "raster/shade.h"
+
+namespace obscura {
+
+struct TileWork;
+
+/// Kept between frames while the scene's sky stays.
+struct FrameSky {
+    Sky sky;                        ///< what it was made for
+    std::optional<SkyModel> model;  ///< none: a gradient
+    ShadeSky shade;                 ///< what surfaces mirror, and a gradient's background
+    /// With occlusion: parallel lights, no two from one direction; the lower half of the sphere is a
+    /// sixteenth of them, evenly.
+    std::vector<Light> lights;
+};
+
+FrameSky frame_sky(const Sky& sky, const Exec& exec);
+
+/// How many lights stand for a sky that surfaces occlude.
+int sky_light_count(const Sky& sky);
+
+/// Puts the model's radiance, with the sun's disc, where a block of samples shows nothing else.
+void draw_sky(const SkyModel& model, TileWork& work);
+
+}  // namespace obscura

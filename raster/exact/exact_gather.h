@@ -1,0 +1,90 @@
+#pragma once
+// Sixteen samples of a light with a size, and what is within its reach of them. Kernel files only; the
+// meaning of each step is in exact_soft_ref.cpp.
+
+#include "raster/exact/exact_receivers.h"
+#include "raster/exact/exact_soft.h"
+
+namespace obscura::OBSCURA_ISA {
+namespace {
+
+/// Sixteen points of one view of the middle in some order, or fewer: the others repeat the first.
+struct Gathered {
+    Bunch bunch;  ///< on the middle's grid
+    alignas(64) float gx[16], gy[16], gz[16];
+    std::uint32_t thin;
+    bool is_far;  ///< some place is not known, being too far off the grid
+};
+
+OBSCURA_INLINE void gather(const ExactPoints& points, const ExactLight& middle, const ExactSamples& samples,
+                           const std::uint32_t* order, int n, Gathered& to) {
+    alignas(64) float rounding[16];
+    to.thin = 0;
+    for (int k = 0; k < 16; ++k) {
+        const std::uint32_t i = order[k < n ? k : 0], at = samples.point[i];
+        to.bunch.x[k] = samples.x[i];
+        to.bunch.y[k] = samples.y[i];
+        to.bunch.z[k] = samples.z[i];
+        rounding[k] = samples.rounding[i];
+        to.bunch.point[k] = static_cast<std::int32_t>(at);
+        to.bunch.face[k] = static_cast<std::int32_t>(points.face[at]);
+        to.bunch.px[k] = points.px[at];
+        to.bunch.py[k] = points.py[at];
+        to.bunch.pz[k] = points.pz[at];
+        to.gx[k] = points.gx[at];
+        to.gy[k] = points.gy[at];
+        to.gz[k] = points.gz[at];
+        to.thin |= (points.thin[at / 16] >> (at % 16) & 1u) << k;
+    }
+    finish_bunch(middle, load(rounding), n >= 16 ? 0xffffu : (1u << n) - 1u, to.bunch);
+    constexpr auto beyond = static_cast<std::int32_t>(exact_beyond);
+    const Extent& e = to.bunch.extent;
+    to.is_far = least(e.x_low, e.y_low) <= -beyond || most(e.x_high, e.y_high) >= 2 * beyond;
+}
+
+/// Boxes that reach into `e` widened by what their depth makes of the light's size.
+OBSCURA_INLINE std::uint32_t within_reach(const CasterBoxes& boxes, const Extent& e, float steps_per_depth) {
+    const F32 z_low = load(boxes.z_low), z_high = splat(e.z_high);
+    const F32 steps = splat(steps_per_depth) * (z_high - z_low);
+    const I32 reach =
+        to_i32(min(max(steps, splat(0.0f)), splat(exact_most_reach))) + splat(exact_reach_slack);
+    return bits(less_equal(load(boxes.x_low), splat(e.x_high) + reach) &
+                less_equal(splat(e.x_low) - reach, load(boxes.x_high)) &
+                less_equal(load(boxes.y_low), splat(e.y_high) + reach) &
+                less_equal(splat(e.y_low) - reach, load(boxes.y_high)) & less_equal(z_low, z_high));
+}
+
+/// Calls visit(triangle's place, its nearest depth) for what is within reach of e, until it returns false.
+template <class Visit>
+OBSCURA_INLINE void walk_reach(const ExactView& view, const Extent& e, float steps_per_depth,
+                               std::int64_t& groups, Visit&& visit) {
+    struct Entry {
+        std::int32_t level;
+        std::uint32_t group;
+    };
+    Entry stack[16 * most_caster_levels];
+    int top = 0;
+    stack[top++] = {view.levels - 1, 0};
+    while (top > 0) {
+        const Entry at = stack[--top];
+        ++groups;
+        const CasterBoxes& boxes = view.boxes[at.level][at.group];
+        std::uint32_t inside = within_reach(boxes, e, steps_per_depth);
+        if (at.level == 0) {
+            for (; inside != 0; inside &= inside - 1) {
+                const int k = __builtin_ctz(inside);
+                if (!visit(16 * at.group + static_cast<std::uint32_t>(k), boxes.z_low[k])) return;
+            }
+            continue;
+        }
+        // Last first, so that the first is on top.
+        while (inside != 0) {
+            const int k = 31 - __builtin_clz(inside);
+            inside &= ~(1u << k);
+            stack[top++] = {at.level - 1, 16 * at.group + static_cast<std::uint32_t>(k)};
+        }
+    }
+}
+
+}  // namespace
+}  // namespace obscura::OBSCURA_ISA
