@@ -70,7 +70,7 @@ class Emitter {
                int height) {
         std::uint8_t* out = bits_ + byte_of_unit(plan_.layout, unit);
         if (kind != static_cast<std::uint32_t>(ChildKind::leaf)) {
-            const std::size_t size = plan_.layout == TreeLayout::bytes16 ? 3 : 4;
+            const std::size_t size = byte_of_unit(plan_.layout, header_units(plan_.layout));
             const std::uint32_t scale = plan_.scale[height];
             const std::uint64_t offset = scale == 1 ? distance : distance / scale;
             const std::uint32_t header = node.kinds | static_cast<std::uint32_t>(offset) << 8;
@@ -97,11 +97,10 @@ class Emitter {
 
 /// The layout asked for, or the next wider one whose offsets reach at a bearable price.
 LayoutPlan choose_layout(const TreeShape& shape, const EncodeParams& params) {
-    constexpr TreeLayout wider[] = {TreeLayout::words24, TreeLayout::words24, TreeLayout::words16};
-    for (TreeLayout layout = params.layout;; layout = wider[static_cast<std::size_t>(layout)]) {
+    for (TreeLayout layout = params.layout;; layout = row_of(layout).wider) {
         const int bits = params.offset_bits == 0 ? offset_bits(layout) : params.offset_bits;
         LayoutPlan plan = plan_layout(shape, layout, (1u << bits) - 1, params.max_units);
-        const bool widest = layout == TreeLayout::words24;
+        const bool widest = row_of(layout).wider == layout;
         if (!plan.fits && widest) {
             throw LimitError(
                 fmt::format("a shadow tree of {} nodes takes more than the {} units that "

@@ -22,11 +22,30 @@ constexpr int max_tree_levels = 20;
 /// Levels of the largest top grid: 2^24 entries, 128 MiB.
 constexpr int max_top_levels = 12;
 
-enum class TreeLayout : std::uint32_t {
-    words16 = 0,  ///< words, offsets of 16 bits: the paper's
-    words24 = 1,  ///< words, offsets of 24 bits
-    bytes16 = 2,  ///< bytes, offsets of 16 bits: the paper's without padding
+enum class TreeLayout : std::uint32_t { words16 = 0, words24 = 1, bytes16 = 2 };
+
+/// A layout and all that tells it from the others.
+struct TreeLayoutRow {
+    TreeLayout layout;
+    const char* name;  ///< in scene files
+    bool bytes;        ///< its units; else words
+    int offset_bits;
+    TreeLayout wider;  ///< what is tried where its offsets do not reach; the widest: itself
 };
+inline constexpr TreeLayoutRow tree_layouts[] = {
+    {TreeLayout::words24, "words24", false, 24, TreeLayout::words24},
+    {TreeLayout::words16, "words16", false, 16, TreeLayout::words24},  // the paper's
+    {TreeLayout::bytes16, "bytes16", true, 16, TreeLayout::words16},   // the paper's without padding
+};
+constexpr int tree_layout_count = static_cast<int>(sizeof tree_layouts / sizeof tree_layouts[0]);
+
+/// Of a layout that is one.
+constexpr const TreeLayoutRow& row_of(TreeLayout layout) {
+    int i = 0;
+    while (i + 1 < tree_layout_count && tree_layouts[i].layout != layout)
+        ++i;
+    return tree_layouts[i];
+}
 
 /// One entry of the dense top grid: where a descent stands after its first levels.
 struct TopNode {

@@ -184,7 +184,8 @@ class Reader {
 
     /// Numbers that only a program gone wrong, or an adversary, can have written under a right checksum.
     void check_record(std::uint32_t i, const TreeRecord& record) const {
-        if (record.layout > static_cast<std::uint32_t>(TreeLayout::bytes16)) fail(i, "has an unknown layout");
+        const auto layout = static_cast<TreeLayout>(record.layout);
+        if (row_of(layout).layout != layout) fail(i, "has an unknown layout");
         if (record.levels < 0 || record.levels > max_tree_levels) fail(i, "has too many levels");
         if (record.top_levels < 0 || record.top_levels > std::min<int>(record.levels, max_top_levels))
             fail(i, "has too many levels in its top grid");

@@ -17,24 +17,21 @@ namespace obscura {
 /// What a layout's numbers are, in units (words or bytes).
 template <TreeLayout layout>
 struct TreeUnits {
-    static constexpr bool bytes = layout == TreeLayout::bytes16;
+    static constexpr bool bytes = row_of(layout).bytes;
     static constexpr std::uint32_t unit_bytes = bytes ? 1 : 4;
     static constexpr std::uint32_t header = bytes ? 3 : 1;
     static constexpr std::uint32_t low_bit = bytes ? 4 : 1, high_bit = bytes ? 3 : 1;  ///< of a child's kind
-    static constexpr std::uint32_t offset_mask = layout == TreeLayout::words24 ? 0xffffffu : 0xffffu;
+    static constexpr std::uint32_t offset_mask = (1u << row_of(layout).offset_bits) - 1;
 };
 
 /// Calls f(TreeUnits<layout>{}) for the tree's layout.
-template <class F>
+template <int row = tree_layout_count - 1, class F>
 OBSCURA_TREE_INLINE auto with_layout(const TreeCode& tree, F&& f) {
-    switch (tree.layout) {
-        case TreeLayout::words16:
-            return f(TreeUnits<TreeLayout::words16>{});
-        case TreeLayout::bytes16:
-            return f(TreeUnits<TreeLayout::bytes16>{});
-        default:
-            return f(TreeUnits<TreeLayout::words24>{});
+    constexpr TreeLayout layout = tree_layouts[row].layout;
+    if constexpr (row > 0) {
+        if (tree.layout != layout) return with_layout<row - 1>(tree, f);
     }
+    return f(TreeUnits<layout>{});
 }
 
 template <class Units>

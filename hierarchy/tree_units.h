@@ -14,11 +14,11 @@ namespace obscura {
 /// Units that a node takes, by its kind.
 using KindUnits = std::array<std::uint32_t, 4>;
 constexpr KindUnits units_of_kinds(TreeLayout layout) {
-    return layout == TreeLayout::bytes16 ? KindUnits{0, 4, 3, 7} : KindUnits{0, 1, 1, 2};
+    return row_of(layout).bytes ? KindUnits{0, 4, 3, 7} : KindUnits{0, 1, 1, 2};
 }
 
 constexpr std::size_t unit_bytes(TreeLayout layout) {
-    return layout == TreeLayout::bytes16 ? 1 : 4;
+    return row_of(layout).bytes ? 1 : 4;
 }
 
 /// Units of a header: where the value of a full node stands behind the node.
@@ -27,7 +27,7 @@ constexpr std::uint32_t header_units(TreeLayout layout) {
 }
 
 constexpr int offset_bits(TreeLayout layout) {
-    return layout == TreeLayout::words24 ? 24 : 16;
+    return row_of(layout).offset_bits;
 }
 
 /// Lookups index units with signed 32-bit numbers.
@@ -72,7 +72,7 @@ inline std::uint32_t bits_at(const TreeCode& code, std::uint64_t unit) {
 inline TreeHeader header_at(const TreeCode& code, std::uint64_t unit) {
     std::uint32_t bits = bits_at(code, unit);
     // The fourth byte belongs to the next unit.
-    if (code.layout == TreeLayout::bytes16) bits &= 0xffffffu;
+    if (unit_bytes(code.layout) == 1) bits &= 0xffffffu;
     return {bits & 0xffu, bits >> 8};
 }
 

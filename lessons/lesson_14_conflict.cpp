@@ -6,7 +6,7 @@
 // (L. Scandolo, P. Bauszat, E. Eisemann, "Gradient-Guided Local Disparity Editing", CGF 2018.)
 //
 // Calls: stereo/edit.h edited_disparity, edited_system, stereo/conflict.h find_conflicts, inverted,
-//        stereo/conflict_overlay.h conflict_overlay, stereo/solver.h solve.
+//        stereo/conflict_overlay.h conflict_overlay, stereo/solver/solver.h solve.
 
 #include <algorithm>
 
@@ -148,7 +148,7 @@ Image<Rgb8> lesson_14_conflict(const Exec& exec) {
         "not: the wall stays as far behind the ball as it was.");
     f.source_line(14,
                   "stereo/edit.h edited_disparity edited_system · stereo/conflict.h find_conflicts · "
-                  "stereo/conflict_overlay.h · stereo/solver.h solve");
+                  "stereo/conflict_overlay.h · stereo/solver/solver.h solve");
     return f.picture;
 }
 

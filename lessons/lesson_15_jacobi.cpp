@@ -6,7 +6,7 @@
 // level, as printed, has the wrong sign. (Scandolo, Bauszat, Eisemann 2018; F. L. Scandolo, thesis, 2019,
 // section 4.3.3.)
 //
-// Calls: stereo/thesis/cascade.h jacobi_sweeps, halved, upsampled, stereo/solver.h solve.
+// Calls: stereo/thesis/cascade.h jacobi_sweeps, halved, upsampled, stereo/solver/solver.h solve.
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +144,8 @@ Image<Rgb8> lesson_15_jacobi(const Exec& any) {
                 "printed sign the detail is taken away instead, and the sweeps have to bring it back. Even "
                 "corrected,\n"
                 "levels are not the same problem: sampled, with weights as they are. Lesson 16 mends that.");
-    f.source_line(15, "stereo/thesis/cascade.h jacobi_sweeps halved upsampled · stereo/solver.h solve");
+    f.source_line(15,
+                  "stereo/thesis/cascade.h jacobi_sweeps halved upsampled · stereo/solver/solver.h solve");
     return f.picture;
 }
 

@@ -4,8 +4,8 @@
 // any more; down the levels go right sides, up come corrections. A cycle by itself stalls where many pixels
 // hang on one; as the preconditioner of conjugate gradients it does not. (A. Brandt 1977; O. Tatebe 1993.)
 //
-// Calls: stereo/grid_hierarchy.h grid_hierarchy, stereo/v_cycle.h descend, ascend, solve_coarsest,
-//        stereo/conjugate_gradients.h start_residual, stereo/solver.h solve.
+// Calls: stereo/solver/grid_hierarchy.h grid_hierarchy, stereo/solver/v_cycle.h descend, ascend,
+//        solve_coarsest, stereo/solver/conjugate_gradients.h start_residual, stereo/solver/solver.h solve.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include "lessons/ladder.h"
 #include "lessons/stereo_edits.h"
 #include "lessons/stereo_panels.h"
-#include "stereo/conjugate_gradients.h"
+#include "stereo/solver/conjugate_gradients.h"
 
 namespace obscura {
 namespace {
@@ -158,8 +158,7 @@ Image<Rgb8> lesson_16_v_cycle(const Exec& any) {
         y = f.paragraph({1410, y}, name, {9.5, color, Align::left, true, false}) + 8;
     f.paragraph({1410, y + 16}, "dashed: the block is\nmatched to one point\nof the ball, a hub");
     f.source_line(
-        16,
-        "stereo/grid_hierarchy.h · stereo/v_cycle.h descend solve_coarsest ascend · stereo/solver.h solve");
+        16, "stereo/solver/grid_hierarchy.h · v_cycle.h descend solve_coarsest ascend · solver.h solve");
     return f.picture;
 }
 

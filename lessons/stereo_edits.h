@@ -5,7 +5,7 @@
 
 #include "lessons/stereo_scene.h"
 #include "stereo/edit.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 

@@ -36,7 +36,7 @@ Square square_of(int width, int height) {
 
 void require(bool good, const char* name, double value, const char* range) {
     if (good) return;
-    throw UsageError(fmt::format("aperture: {} is {}, must be {}", name, value, range));
+    throw InputError("aperture", fmt::format("{} is {}, must be {}", name, value, range));
 }
 
 void check(const LensDirt& d) {

@@ -12,7 +12,7 @@ bool has_dirt(const LensDirt& dirt);
 
 /// Amplitude that passes each texel of a mask this large, in [0, 1]. Dirt is placed in shares of the mask's
 /// longer side, around its middle: of the same look at every size. Scratches, eyelashes, the occluder and
-/// hard dust have exact coverage, also where they overlap each other. Throws UsageError when a number is out
+/// hard dust have exact coverage, also where they overlap each other. Throws InputError when a number is out
 /// of its range.
 Image<float> dirt_transmission(const LensDirt& dirt, int width, int height);
 

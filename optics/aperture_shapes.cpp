@@ -145,7 +145,7 @@ std::vector<Loop> hexagons(const ApertureShape& shape, double radius) {
 
 void require(bool good, const char* name, double value, const char* range) {
     if (good) return;
-    throw UsageError(fmt::format("aperture: {} is {}, must be {}", name, value, range));
+    throw InputError("aperture", fmt::format("{} is {}, must be {}", name, value, range));
 }
 
 void check_common(const ApertureShape& s) {

@@ -61,11 +61,11 @@ const char* aperture_kind_name(ApertureKind kind);
 ApertureShape paper_aperture(ApertureKind kind);
 
 /// In texels of a size x size mask. Curves become chords no farther than 1e-6 texel from them; straight
-/// shapes have their corners only. Throws UsageError when a parameter is out of its range.
+/// shapes have their corners only. Throws InputError when a parameter is out of its range.
 Outline outline_of(const ApertureShape& shape, int size);
 
 /// Its exact coverage, with the outline. `diameter_m` is what shape.diameter measures, in metres. Throws
-/// UsageError as above, for sizes outside 1 to 32768, and for a diameter_m that is not positive and finite.
+/// InputError as above, for sizes outside 1 to 32768, and for a diameter_m that is not positive and finite.
 Aperture make_aperture(const ApertureShape& shape, int size, double diameter_m);
 
 }  // namespace obscura

@@ -18,6 +18,7 @@
 #include "app/frame/shadow_text.h"
 #include "app/frame/shadows.h"
 #include "app/frame/soft_light.h"
+#include "app/pair/pair.h"
 #include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
@@ -184,9 +185,10 @@ std::string mesh_text(const Scene& scene) {
     return out;
 }
 
-std::string memory_text(const MemoryEstimate& e, const Scene& scene) {
-    return fmt::format("memory    about {} of {} MiB: meshes {}, textures {}, shadow maps {}, frame {}\n",
-                       size_text(e.total()), scene.limits.memory_mib, size_text(e.meshes),
+/// `of`: nothing for the picture, or "a pair: ".
+std::string memory_text(const char* of, const MemoryEstimate& e, const Scene& scene) {
+    return fmt::format("memory    {}about {} of {} MiB: meshes {}, textures {}, shadow maps {}, frame {}\n",
+                       of, size_text(e.total()), scene.limits.memory_mib, size_text(e.meshes),
                        size_text(e.textures), size_text(e.shadow_maps), size_text(e.frame));
 }
 
@@ -205,10 +207,16 @@ std::string check_report(const CheckOptions& options) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         out += light_text(scene.lights[i], found[i], scene, shadow_method_reason(document.root, *lights[i]));
     out += lens_text(scene.optics, scene.render, glare_margin(scene));
+    std::string needs = memory_text("", memory, scene);
     if (document.root.has("stereo")) {
-        out += stereo_text(stereo_settings(document, scene, scene_frames(document).first, access), scene);
+        const StereoSettings settings =
+            stereo_settings(document, scene, scene_frames(document).first, access);
+        out += stereo_text(settings, scene);
+        MemoryEstimate pair = memory;
+        pair.frame += stereo_bytes(scene, settings);
+        needs += memory_text("a pair: ", pair, scene);
     }
-    return out + mesh_text(scene) + memory_text(memory, scene) + "ok\n";
+    return out + mesh_text(scene) + needs + "ok\n";
 }
 
 int check_command(const CheckOptions& options) {

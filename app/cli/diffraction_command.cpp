@@ -75,17 +75,28 @@ Aperture mask_from_file(const DiffractionOptions& options) {
     return scaled_aperture(std::move(mask), scale);
 }
 
+/// What the aperture is made of came by flags here: a parameter out of its range is a wrong flag.
+template <class Make>
+auto from_flags(Make&& make) {
+    try {
+        return make();
+    } catch (const InputError& error) {
+        throw UsageError(error.what());
+    }
+}
+
 Aperture mask_from_shape(const DiffractionOptions& options) {
     check_limits(options, std::int64_t{options.mask_px} * options.mask_px);
-    Aperture aperture =
-        make_aperture(options.shape, options.mask_px, options.diameter_m.value_or(default_diameter_m));
+    Aperture aperture = from_flags([&] {
+        return make_aperture(options.shape, options.mask_px, options.diameter_m.value_or(default_diameter_m));
+    });
     if (options.pitch_m) aperture.pitch_m = *options.pitch_m;
     return aperture;
 }
 
 Aperture load_aperture(const DiffractionOptions& options) {
     Aperture aperture = options.mask_file.empty() ? mask_from_shape(options) : mask_from_file(options);
-    add_dirt(options.dirt, aperture);
+    from_flags([&] { add_dirt(options.dirt, aperture); });
     if (options.finest_level > 0) aperture = reduce(aperture, options.finest_level, true);
     if (!(open_area(aperture.mask.view()) > 0)) {
         throw InputError(options.aperture,

@@ -56,8 +56,8 @@ void ExactTile::run(const TileScene& scene, int column, int row, int first, int 
                     int end_row, Isa isa, TileWork& work) {
     begin(count);
     for (int k = 0; k < count; ++k) {
-        const TileRect tile = tile_visibility(scene, column, row,
-                                              scene.pattern[static_cast<std::size_t>(first + k)], isa, work);
+        const auto sample = static_cast<std::size_t>(first) + static_cast<std::size_t>(k);
+        const TileRect tile = tile_visibility(scene, column, row, scene.pattern[sample], isa, work);
         std::copy_n(work.depth, tile_samples, depth_.data() + points_of(k));
         std::copy_n(work.triangle, tile_samples, triangle_.data() + points_of(k));
         for (int block = first_row; block < end_row; block += block_rows) {

@@ -49,7 +49,7 @@ std::int64_t prepared_bytes(const MeshSize& mesh, const RenderSettings& render) 
 /// The program at work, the rounding of large blocks to pages, and small ones that the allocator has not
 /// given back: measured, not derived.
 std::int64_t allocator_bytes(std::int64_t held) {
-    return (std::int64_t{4} << 20) + held / 4;
+    return (std::int64_t{4} << 20) + held / 8;
 }
 
 double mib(std::int64_t bytes) {

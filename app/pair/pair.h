@@ -19,7 +19,7 @@
 #include "stereo/edit.h"
 #include "stereo/middle_view.h"
 #include "stereo/moved_mesh.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 

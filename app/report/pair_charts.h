@@ -6,8 +6,8 @@
 
 #include "stereo/comfort.h"
 #include "stereo/middle_view.h"
-#include "stereo/solve_report.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solve_report.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 

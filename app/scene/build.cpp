@@ -102,7 +102,7 @@ struct Part {
 Part load_part(Builder& b, const SceneTable& table) {
     return load_named(b, table, "file", [&](const std::filesystem::path& path) {
         ObjOptions options;
-        options.crease_angle_deg = number(table, "crease_angle_deg");
+        options.crease_angle_deg = mesh_options_of(table).crease_angle_deg;
         options.allow_missing = b.access.allow_missing;
         options.materials = !table.has("material");
         for (const SceneEntry& entry : subtable(table, "materials").entries)
@@ -163,13 +163,13 @@ void assign_materials(Builder& b, const SceneTable& table, Part& part) {
 }
 
 /// Objects are named after the mesh, and after the file's objects when it has several.
-void name_objects(const SceneTable& table, Mesh& mesh) {
+void set_objects(const SceneTable& table, bool casts_shadow, Mesh& mesh) {
     const std::string& id = text(table, "id");
     mesh.object.resize(mesh.triangles.size(), 0);
     if (mesh.objects.empty()) mesh.objects.emplace_back();
     for (Object& object : mesh.objects) {
         object.name = mesh.objects.size() == 1 ? id : id + "/" + object.name;
-        object.casts_shadow = boolean(table, "casts_shadow");
+        object.casts_shadow = casts_shadow;
     }
 }
 
@@ -235,8 +235,9 @@ void add_mesh(Builder& b, const SceneTable& table) {
                         b.document.sources[0], text(table, "id"), total, b.limits.triangles));
     }
     assign_materials(b, table, part);
-    name_objects(table, part.mesh);
-    if (boolean(table, "flip_faces")) flip_faces(part.mesh);
+    const MeshOptions options = mesh_options_of(table);
+    set_objects(table, options.casts_shadow, part.mesh);
+    if (options.flip_faces) flip_faces(part.mesh);
 
     const Affine own = placement_of(table) * translation(part.origin);
     for (std::size_t i = 0; i < copies; ++i) {

@@ -44,4 +44,9 @@ void take(const SceneValue& value, std::string& to) {
     to = std::get<std::string>(value.data);
 }
 
+void take(const SceneValue& value, std::optional<std::array<double, 2>>& to) {
+    const SceneList& list = std::get<SceneList>(value.data);
+    to = {number_of(list.at(0)), number_of(list.at(1))};
+}
+
 }  // namespace obscura

@@ -7,8 +7,10 @@
 //
 // Keys whose meaning needs several keys are rows without a member; whoever reads the struct reads these.
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,6 +57,8 @@ void take(const SceneValue& value, float& to);
 void take(const SceneValue& value, Vec3d& to);
 void take(const SceneValue& value, Vec3f& to);
 void take(const SceneValue& value, std::string& to);
+/// Two numbers.
+void take(const SceneValue& value, std::optional<std::array<double, 2>>& to);
 
 /// Without a default of its own in the schema: rules supply it, or the struct has what its absence means.
 template <class S, class T>

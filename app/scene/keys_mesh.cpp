@@ -32,6 +32,27 @@ const KeyRows<Placement>& placement_rows() {
     return rows;
 }
 
+/// Of files alone.
+const KeyRows<MeshOptions>& file_rows() {
+    static const KeyRows<MeshOptions> rows{
+        {file_key("file", "OBJ file, relative to the scene file and inside its folder.").need()},
+        key_row(&MeshOptions::crease_angle_deg,
+                number_key("crease_angle_deg",
+                           "Where the file has neither normals nor smoothing groups: smooth across edges "
+                           "that bend less than this. 20 suits buildings, 180 scans.")
+                    .in({0, 180})),
+    };
+    return rows;
+}
+
+const KeyRows<MeshOptions>& option_rows() {
+    static const KeyRows<MeshOptions> rows{
+        key_row(&MeshOptions::casts_shadow, boolean_key("casts_shadow", "false: light passes through.")),
+        key_row(&MeshOptions::flip_faces, boolean_key("flip_faces", "Turns every triangle inside out.")),
+    };
+    return rows;
+}
+
 }  // namespace
 
 const TableSpec& mesh_table() {
@@ -44,15 +65,7 @@ const TableSpec& mesh_table() {
     static const TableSpec spec = [] {
         TableSpec t{"[[mesh]]", "Triangles from a file, or a shape made here.", {}, "shape", {}};
         std::vector<std::string> names{"file"};
-        t.variants.push_back(
-            {"file",
-             "A Wavefront OBJ with its MTL.",
-             {file_key("file", "OBJ file, relative to the scene file and inside its folder.").need(),
-              number_key("crease_angle_deg",
-                         "Where the file has neither normals nor smoothing groups: smooth across edges "
-                         "that bend less than this. 20 suits buildings, 180 scans.")
-                  .in({0, 180})
-                  .or_else(40.0)}});
+        t.variants.push_back({"file", "A Wavefront OBJ with its MTL.", keys_of(file_rows())});
         for (const ShapeSpec& shape : shapes()) {
             names.push_back(shape.variant.name);
             t.variants.push_back(shape.variant);
@@ -64,10 +77,8 @@ const TableSpec& mesh_table() {
                      "A [material.NAME]; without it, files keep their own materials and shapes get the "
                      "default one."),
         };
-        for (KeySpec& key : keys_of(placement_rows()))
+        for (KeySpec& key : keys_of(placement_rows()) + keys_of(option_rows()))
             t.keys.push_back(std::move(key));
-        t.keys.push_back(boolean_key("casts_shadow", "false: light passes through.").or_else(true));
-        t.keys.push_back(boolean_key("flip_faces", "Turns every triangle inside out.").or_else(false));
         t.keys.push_back(name_map_key(
             "materials",
             "Instead of material: a [material.NAME] per slot of the shape or material of the file; "
@@ -76,6 +87,13 @@ const TableSpec& mesh_table() {
         return t;
     }();
     return spec;
+}
+
+MeshOptions mesh_options_of(const SceneTable& mesh) {
+    MeshOptions options;
+    read_rows(file_rows(), mesh, options);
+    read_rows(option_rows(), mesh, options);
+    return options;
 }
 
 Affine placement_of(const SceneTable& mesh) {

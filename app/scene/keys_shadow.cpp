@@ -76,7 +76,7 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 "across its shorter direction, anywhere in the picture. 1 when not given.")
                 .in({0.01, 100})),
         word_row_if_given(
-            &ShadowSettings::layout, tree_layout_words, "layout",
+            &ShadowSettings::layout, tree_layout_words.all, "layout",
             "Compressed: how nodes are written. bytes16 is about a tenth smaller and slower to look up, "
             "words16 about as large as words24. \"words24\" when not given."),
         key_row_if_given(

@@ -1,4 +1,4 @@
-// Keys of the two eyes and of the edits to what they see.
+// Keys of the two eyes; those of edits stand in stereo_edits.cpp.
 
 #include "app/scene/key_ranges.h"
 #include "app/scene/keys.h"
@@ -20,7 +20,6 @@ constexpr Word<RemapKind> remap_words[] = {{"linear", RemapKind::linear},
 
 constexpr Word<EyeShading> shading_words[] = {{"eyes", EyeShading::eyes}, {"middle", EyeShading::middle}};
 
-constexpr Range anywhere{-1e9, 1e9};
 constexpr Range weight_range{0, 1e6};
 // What floats hold beside the other weights.
 constexpr Range positive_weight{1e-9, 1e6};
@@ -154,102 +153,6 @@ KeyRows<RangeRemap> remap_rows() {
     return rows;
 }
 
-KeySpec target_key(const char* name, const char* doc) {
-    return name_list_key(name, doc);
-}
-
-std::vector<KeySpec> target_keys() {
-    return {
-        target_key("objects",
-                   "Meshes by id, or single ones of their objects: \"ID/OBJECT\" of files with several, "
-                   "\"ID#0\" of instances."),
-        target_key("materials",
-                   "Materials by name, or \"ID/SLOT\" for what a shape or a file brings along. Objects and "
-                   "materials together: pixels of any of them."),
-    };
-}
-
-/// An offset in either unit.
-std::vector<KeySpec> offset_keys(const char* doc) {
-    return {
-        number_key("offset_px", doc).in({-1e5, 1e5}).animate(),
-        number_key("offset_percent", "Instead of offset_px: so that it fits pictures of any size.")
-            .in({-100, 100})
-            .animate(),
-    };
-}
-
-std::vector<VariantSpec> edit_variants() {
-    std::vector<KeySpec> roundness{
-        number_key("roundness",
-                   "Scales disparity about the target's centre: 0 flattens, 1 changes nothing, 2 doubles.")
-            .in({0, 100})
-            .need()
-            .animate(),
-        boolean_key("together",
-                    "The target is one thing made of several objects: it has one centre, and borders inside "
-                    "it are scaled, too.")
-            .or_else(false)};
-    std::vector<KeySpec> second{
-        target_key("second_objects",
-                   "The other side of the border, as objects; anything when there is no second."),
-        target_key("second_materials", "The same, as materials."),
-        file_key("mask",
-                 "A picture, stretched over the frame: white counts, black does not. With objects or "
-                 "materials it limits these, alone it keeps depth inside objects, too. PNG, PBM or PGM "
-                 "without colours, inside the scene's folder."),
-        boolean_key("keep", "false: lets go of what interfaces = \"original\" would keep.").or_else(true),
-    };
-    const auto point = [](const char* px, const char* px_doc, const char* m, const char* m_doc) {
-        return std::vector<KeySpec>{vec2_key(px, px_doc).in({-1e6, 1e6}).animate(),
-                                    vec3_key(m, m_doc).in(anywhere).animate()};
-    };
-    return {
-        {"roundness", "More or less depth within the target.", target_keys() + std::move(roundness)},
-        {"anchor", "Holds the target at its own disparity (with its roundness), or at an offset from it.",
-         target_keys() + offset_keys("Towards the viewer when positive; 0 when neither is given.")},
-        {"interface",
-         "Keeps the original depth where two targets meet, or one and anything, or under a mask; or lets it "
-         "go.",
-         target_keys() + std::move(second)},
-        {"match", "What surrounds the destination takes the disparity of the source.",
-         point("source_px", "Point of the picture whose disparity is taken: right, down from its corner.",
-               "source_m", "Instead of source_px: a point of the scene.") +
-             point("destination_px", "Point that gets it.", "destination_m",
-                   "Instead of destination_px: a point of the scene.") +
-             offset_keys("Of the destination from the source, towards the viewer.") +
-             std::vector<KeySpec>{
-                 number_key("radius_px", "Of the disc that moves along; 0: the destination's whole object.")
-                     .in({0, 1e5})
-                     .or_else(0.0),
-                 boolean_key(
-                     "hold_source",
-                     "The source's whole object, or the disc of radius_px around it, keeps its "
-                     "distance to the source. Without, the source alone may be drawn out to where the "
-                     "destination is.")
-                     .or_else(true),
-                 boolean_key("any_object", "With radius_px: other objects within it move along, too.")
-                     .or_else(false)}},
-    };
-}
-
-std::vector<KeySpec> fade_keys() {
-    return {
-        vec2_key(
-            "fade_angle_deg",
-            "[full, none]: the weight, and the offset of an anchor, fade out between these angles of the "
-            "view from fade_direction.")
-            .in({0, 180}),
-        vec3_key("fade_direction", "Direction of the view for which fade_angle_deg is 0.").in(anywhere),
-        vec2_key(
-            "fade_distance_m",
-            "[full, none]: the weight, and the offset of an anchor, fade out between these distances of the "
-            "camera from fade_position_m.")
-            .in({0, 1e9}),
-        vec3_key("fade_position_m", "Where fade_distance_m is measured from.").in(anywhere),
-    };
-}
-
 }  // namespace
 
 const KeyRows<StereoSettings>& stereo_rows() {
@@ -291,34 +194,6 @@ const KeyRows<StereoSettings>& stereo_rows() {
         rows_within(&Settings::edit, energy_rows() + conflict_rows()) +
         rows_within(&Settings::compare_remap, remap_rows());
     return rows;
-}
-
-const TableSpec& stereo_edit_table() {
-    static const TableSpec spec = [] {
-        TableSpec s{"[[stereo.edit]]",
-                    "A wish for the disparity of a part of the picture. All of them are weighed against one "
-                    "another, and against the depths that the scene has.",
-                    {},
-                    "type",
-                    edit_variants()};
-        std::vector<std::string> types;
-        for (const VariantSpec& variant : s.variants)
-            types.push_back(variant.name);
-        s.keys = {
-            name_key("id", "Name, unique among edits.").need(),
-            choice_key("type", types, "Kind of edit.").need(),
-            number_key("weight",
-                       "How strongly it is wanted; of roundness and interface the share that is applied, at "
-                       "most 1. 0 turns it off.")
-                .in(weight_range)
-                .or_else(1.0)
-                .animate(),
-        };
-        for (KeySpec& key : fade_keys())
-            s.keys.push_back(std::move(key));
-        return s;
-    }();
-    return spec;
 }
 
 const TableSpec& stereo_table() {

@@ -25,8 +25,14 @@ inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope
                                                            {"full", ShadowScope::full}};
 inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},
                                                              {"hierarchical", ShadowFilter::hierarchical}};
-inline constexpr Word<TreeLayout> tree_layout_words[] = {
-    {"words24", TreeLayout::words24}, {"words16", TreeLayout::words16}, {"bytes16", TreeLayout::bytes16}};
+struct TreeLayoutWords {
+    Word<TreeLayout> all[tree_layout_count] = {};
+    constexpr TreeLayoutWords() {
+        for (int i = 0; i < tree_layout_count; ++i)
+            all[i] = {tree_layouts[i].name, tree_layouts[i].layout};
+    }
+};
+inline constexpr TreeLayoutWords tree_layout_words;
 inline constexpr Word<Receivers> receivers_words[] = {{"any", Receivers::any},
                                                       {"static", Receivers::static_only}};
 

@@ -10,7 +10,7 @@
 #include "app/scene/scene_file.h"
 #include "stereo/edit.h"
 #include "stereo/moved_mesh.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 #include "stereo/stereo_rig.h"
 #include "stereo/thesis/range_remap.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 // Raw table + schema -> table whose every key has the declared type and range, with defaults filled in, in
-// the schema's order. What needs more than one key to judge is in scene_rules.h.
+// the schema's order. What needs more than one key to judge is in rules.h.
 
 #include <string>
 #include <vector>

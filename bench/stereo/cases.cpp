@@ -4,7 +4,7 @@
 
 #include "bench/harness/run_times.h"
 #include "bench/stereo/stereo_bench.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 #include "stereo/thesis/cascade.h"
 
 namespace obscura {

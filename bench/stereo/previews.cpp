@@ -7,7 +7,7 @@
 #include "bench/harness/interleave.h"
 #include "bench/stereo/stereo_bench.h"
 #include "stereo/reduced_system.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 #include "stereo/upsample.h"
 
 namespace obscura {

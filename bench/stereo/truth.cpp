@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "stereo/grid_plane.h"
-#include "stereo/grid_rows.h"
 #include "stereo/grid_tasks.h"
+#include "stereo/solver/grid_plane.h"
+#include "stereo/solver/grid_rows.h"
 
 namespace obscura {
 namespace {

@@ -5,8 +5,8 @@
 // else; and ten sweeps reach four pixels far. The notes to the printed formula for going up a level are at
 // `printed_sign`.
 
-#include "stereo/grid_plane.h"
-#include "stereo/solver.h"
+#include "stereo/solver/grid_plane.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 

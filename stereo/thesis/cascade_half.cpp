@@ -2,7 +2,7 @@
 // swept and narrowed again.
 
 #include "core/parallel.h"
-#include "stereo/grid_rows.h"
+#include "stereo/solver/grid_rows.h"
 #include "stereo/thesis/cascade.h"
 #include "stereo/thesis/half_rows.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 // Every way to solve a system of edits behind one door: ours, and the paper's for comparison.
 
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 

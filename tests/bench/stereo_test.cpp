@@ -13,7 +13,7 @@
 #include "bench/stereo/report.h"
 #include "bench/stereo/stereo_bench.h"
 #include "core/error.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 #include "tests/core/temporary_folder.h"
 
 namespace obscura {

@@ -95,6 +95,26 @@ TEST(CheckCommand, TwoSpellingsOfAFileAreOneOutput) {
     EXPECT_NE(text.find("a.toml:11:8: another output has the same 'file'"), std::string::npos) << text;
 }
 
+TEST(CheckCommand, APairTakesMoreThanAPicture) {
+    TemporaryFolder folder;
+    const std::string plain =
+        "format = 1\ncamera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}\n[[mesh]]\nid = \"a\"\nshape = "
+        "\"box\"\n";
+    folder.write("plain.toml", plain);
+    folder.write("pair.toml", plain + "[stereo]\n");
+    const auto mib_of = [](const std::string& report, const std::string& what) {
+        const std::size_t at = report.find(what);
+        return at == std::string::npos ? 0.0 : std::stod(report.substr(at + what.size()));
+    };
+    const std::string one = check_report({folder.path / "plain.toml", {}, {}}),
+                      two = check_report({folder.path / "pair.toml", {}, {}});
+    EXPECT_EQ(one.find("a pair"), std::string::npos) << one;
+    const double picture = mib_of(one, "memory    about ");
+    EXPECT_GT(picture, 1);
+    EXPECT_EQ(mib_of(two, "memory    about "), picture);
+    EXPECT_GT(mib_of(two, "memory    a pair: about "), 3 * picture) << two;
+}
+
 TEST(CheckCommand, LensesThatNothingHasAreToldAtTheirKey) {
     const TemporaryFolder folder;
     const std::string file = (folder.path / "a.toml").string();

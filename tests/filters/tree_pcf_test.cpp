@@ -84,14 +84,12 @@ TEST_P(TreePcf, EqualsTheDenseMapAtEveryAlignmentAndBorder) {
                 if (side > 1 && size > 4) {
                     EXPECT_GT(between_light_and_dark(expected), 20);
                 }
-                for (const TreeLayout layout :
-                     {TreeLayout::words16, TreeLayout::words24, TreeLayout::bytes16}) {
-                    ShadowTree tree = encode_tree(m.tree, {}, {layout});
+                for (const TreeLayoutRow& row : tree_layouts) {
+                    ShadowTree tree = encode_tree(m.tree, {}, {row.layout});
                     for (const int top : {0, 2}) {
                         set_top_grid(tree, top);
                         light.view[0].tree = &tree.code;
-                        expect_all(blocks, light, expected,
-                                   "layout " + std::to_string(static_cast<int>(layout)));
+                        expect_all(blocks, light, expected, std::string("layout ") + row.name);
                     }
                 }
             }

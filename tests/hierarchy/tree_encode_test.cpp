@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 
+#include <array>
 #include <cstring>
 #include <numeric>
 #include <random>
@@ -17,7 +18,12 @@
 namespace obscura {
 namespace {
 
-constexpr TreeLayout layouts[] = {TreeLayout::words16, TreeLayout::words24, TreeLayout::bytes16};
+constexpr std::array<TreeLayout, tree_layout_count> layouts = [] {
+    std::array<TreeLayout, tree_layout_count> all{};
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = tree_layouts[i].layout;
+    return all;
+}();
 
 std::uint64_t node_bytes(const ShadowTree& tree) {
     const MultiresCounts& c = tree.counts;
@@ -203,7 +209,7 @@ TEST(LayoutPlan, TheScaleIsTheBestOfAll) {
     std::mt19937 engine(7);
     const auto below = [&](std::uint32_t n) { return static_cast<std::uint32_t>(engine() % n); };
     for (int round = 0; round < 200; ++round) {
-        const TreeLayout layout = layouts[round % 3];
+        const TreeLayout layout = layouts[static_cast<std::size_t>(round) % layouts.size()];
         std::vector<std::uint8_t> parents(1 + below(6));
         std::vector<std::uint32_t> blocks;
         for (std::uint8_t& kinds : parents) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <random>
@@ -134,8 +135,13 @@ TEST_P(Layouts, HoldTreesOfOneNodeAndMapsOfOneTexel) {
         expect_lookups(tree, code.code, 40, 6);
     }
 }
-INSTANTIATE_TEST_SUITE_P(Query, Layouts,
-                         testing::Values(TreeLayout::words16, TreeLayout::words24, TreeLayout::bytes16));
+constexpr std::array<TreeLayout, tree_layout_count> all_layouts = [] {
+    std::array<TreeLayout, tree_layout_count> all{};
+    for (std::size_t i = 0; i < all.size(); ++i)
+        all[i] = tree_layouts[i].layout;
+    return all;
+}();
+INSTANTIATE_TEST_SUITE_P(Query, Layouts, testing::ValuesIn(all_layouts));
 
 TEST(Query, NoPointsAreNoWork) {
     const Image<DepthInterval> background(8, 8);

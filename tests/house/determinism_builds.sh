@@ -1,8 +1,9 @@
 #!/bin/sh
 # One picture for every build: renders every scene of scenes/tests with the given release binary, with a debug
 # build and, where clang++ exists, with the clang preset, and compares the files byte by byte.
-#   determinism_builds.sh RELEASE_BINARY BUILDS_FOLDER     the other builds are made there
-# They compile the program alone: no tests, benches or lessons, and no information for debuggers.
+#   determinism_builds.sh RELEASE_BUILD BUILDS_FOLDER     the other builds are made there
+# They compile the program alone: no tests, benches or lessons, and no information for debuggers. Kernels are compiled
+# by the same command for Debug as for Release, and are taken from there.
 set -eu
 release=$(realpath "$1")
 builds=$2
@@ -31,11 +32,13 @@ else
     echo "clang++ is not installed: only g++ builds are compared"
 fi
 
-pictures "$release" release
+pictures "$release/bin/obscura" release
 failed=0
 for preset in $presets; do
     build=$builds/$preset
-    cmake --preset "$preset" -B "$build" -DCMAKE_CXX_FLAGS_DEBUG= -DOBSCURA_FUZZ=OFF \
+    kernels=
+    if [ "$preset" = debug ]; then kernels=$release; fi
+    cmake --preset "$preset" -B "$build" -DCMAKE_CXX_FLAGS_DEBUG= -DOBSCURA_FUZZ=OFF "-DOBSCURA_KERNELS_FROM=$kernels" \
         -DOBSCURA_TESTS=OFF -DOBSCURA_BENCH=OFF -DOBSCURA_LESSONS=OFF > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
     cmake --build "$build" --target obscura > "$out/log" 2>&1 || { tail -n 40 "$out/log"; exit 1; }
     pictures "$build/bin/obscura" "$preset"

@@ -1,8 +1,9 @@
 #!/bin/bash
 # One source file after the other, without the precompiled headers: what changed lately first, until time is up.
-#   file_by_file.sh includes BUILD_DIR SOURCE_DIR SECONDS  every file compiles with the includes it names itself
 #   file_by_file.sh tidy BUILD_DIR SOURCE_DIR SECONDS      clang-tidy 14 with the rules of .clang-tidy: core, raster,
-#       hierarchy and filters whole, however long it takes; of optics, stereo and scenes what changed, until time is up
+#       hierarchy and filters whole, however long it takes; of the other rooms what changed, until time is up
+#   file_by_file.sh includes BUILD_DIR SOURCE_DIR SECONDS  every file compiles with the includes it names itself. What
+#       clang-tidy has found fine since the sources are as they are has been compiled so and is not looked at again.
 #   file_by_file.sh self-test CXX
 # BUILD_DIR is made for it: a release build that is configured with OBSCURA_PRECOMPILE=OFF and never built. Changed
 # is what differs from the last commit or was in a commit of the last day before it, and the sources that include such
@@ -22,11 +23,39 @@ look_at() {  # look_at MODE BUILD_DIR DEADLINE LINE
     if [ "$1" = tidy ]; then
         clang-tidy -p "$2" --quiet --extra-arg=-Wno-unknown-warning-option "$file" 2>/dev/null || status=$?
     else
-        # Parsing alone, without the compiler cache, which has nothing to keep here.
-        command=$(sed -E 's|^.*/ccache ||; s| -o [^ ]+ -c | -fsyntax-only |; s| -O3 | -O0 |g' <<<"$command")
-        (cd "$directory" && eval "$command") 2>&1 || status=$?
+        parse "$2" "$file" "$directory" "$command" 2>&1 || status=$?
     fi
     if [ $status -eq 0 ]; then echo "fine: $file"; else echo "failed: $file"; fi
+}
+
+# The compiler's command without the cache, which has nothing to keep here, and without what it makes of the file.
+bare() {
+    sed -E 's|^.*/ccache ||; s| -o [^ ]+ -c [^ ]+$||; s| -O[13] | -O0 |g' <<<"$1"
+}
+
+# Tests begin with GoogleTest, which is half of what they parse: those that name it first are given it parsed.
+is_test() {
+    [ "$(grep -m 1 '^#include' "$1")" = '#include <gtest/gtest.h>' ]
+}
+parse() {  # parse BUILD_DIR FILE DIRECTORY COMMAND
+    local first=
+    if [ -e "$1/gtest_first.h.gch" ] && is_test "$2"; then first="-include $1/gtest_first.h"; fi
+    cd "$3" && eval "$(bare "$4") $first -fsyntax-only $2"
+}
+parse_gtest() {  # parse_gtest BUILD_DIR FILES
+    local file directory command
+    while IFS=$'\t' read -r file directory command; do
+        is_test "$file" || continue
+        echo '#include <gtest/gtest.h>' >"$1/gtest_first.h"
+        (cd "$directory" && eval "$(bare "$command") -x c++-header -o $1/gtest_first.h.gch $1/gtest_first.h") && return
+        rm -f "$1/gtest_first.h.gch"
+        return
+    done <"$2"
+}
+
+# What all sources are, in a word.
+state_of_sources() {
+    find . -path ./build -prune -o \( -name '*.h' -o -name '*.cpp' \) -type f -print0 | sort -z | xargs -0 cat | sha1sum
 }
 
 # FILE, DIRECTORY, COMMAND of every file once; kernels with their narrowest instruction set.
@@ -64,21 +93,27 @@ run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
     awk -F '\t' 'FILENAME == ARGV[1] { is[$1] = 1; next } $1 in is' "$work/changed" "$work/all" >"$work/first"
     awk -F '\t' 'FILENAME == ARGV[1] { is[$1] = 1; next } !($1 in is)' "$work/changed" "$work/all" >"$work/then"
     : >"$work/always"
+    : >"$work/tidied"
     if [ "$1" = tidy ]; then
         # Not kernels, which are built once per instruction set; not image_io.cpp, which holds all of stb.
         local not='_kernel\.cpp'$'\t''|/image_io\.cpp'$'\t' rooms="^$PWD/(core|raster|hierarchy|filters)/"
         grep -E "$rooms" "$work/all" | grep -vE "$not" >"$work/always"
-        # Of the others, these have been through as a whole once.
-        grep -E "^$PWD/(optics|stereo|scenes)/" "$work/first" | grep -vE "$not" >"$work/timed"
+        # The others have been through as a whole once.
+        grep -vE "$rooms" "$work/first" | grep -vE "$not" >"$work/timed"
     else
-        cat "$work/first" "$work/then" >"$work/timed"
+        if [ "$(head -n 1 "$2/tidied" 2>/dev/null)" = "$(state_of_sources)" ]; then cp "$2/tidied" "$work/tidied"; fi
+        cat "$work/first" "$work/then" |
+            awk -F '\t' 'FILENAME != "-" { is[$1] = 1; next } !($1 in is)' "$work/tidied" - >"$work/timed"
+        parse_gtest "$2" "$work/timed"
     fi
     deadline=$(($(date +%s) + $4))
     each() { xargs -r -d '\n' -P 2 -n 1 bash "$self" look-at "$1" "$2" "$3" <"$4"; }
     { each "$1" "$2" 0 "$work/always"; each "$1" "$2" "$deadline" "$work/timed"; } >"$work/out"
+    if [ "$1" = tidy ]; then { state_of_sources; sed -n 's/^fine: //p' "$work/out"; } >"$2/tidied"; fi
     grep -vE '^(fine|left out): ' "$work/out"
     echo "$(grep -c '^fine: ' "$work/out") files are fine, $(grep -c '^failed: ' "$work/out") are not;" \
-        "$(wc -l <"$work/first") of $(wc -l <"$work/all") have changed"
+        "$(wc -l <"$work/first") of $(wc -l <"$work/all") have changed," \
+        "$(grep -c / "$work/tidied") were looked at by clang-tidy"
     grep '^left out: ' "$work/out" && echo "(left out: no time for them in $4 seconds)"
     local failed=0
     if grep -q '^failed: ' "$work/out"; then failed=1; fi
@@ -90,28 +125,44 @@ run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
     return $failed
 }
 
-# Two files, one of which lacks an include, in a small house without history.
+# Files with and without all their includes, in a small house without history.
 self_test() {
     local work failures=0
     work=$(mktemp -d)
-    mkdir "$work/core"
+    mkdir -p "$work/core" "$work/include/gtest"
+    echo '#include <string>' >"$work/include/gtest/gtest.h"
     echo '#include <vector>
           std::vector<int> f() { return {}; }' >"$work/core/good.cpp"
     echo 'std::vector<int> f() { return {}; }' >"$work/core/bad.cpp"
-    for file in good bad; do
-        printf '{\n  "directory": "%s",\n  "command": "%s -o a.o -c %s",\n  "file": "%s"\n},\n' \
-            "$work" "$1 -O3" "$work/core/$file.cpp" "$work/core/$file.cpp"
+    echo '#include <gtest/gtest.h>
+          std::string f() { return {}; }' >"$work/core/good_test.cpp"
+    echo '#include <gtest/gtest.h>
+          std::vector<std::string> f() { return {}; }' >"$work/core/bad_test.cpp"
+    local between='['
+    for file in good bad good_test bad_test; do
+        printf '%s{\n  "directory": "%s",\n  "command": "%s -o a.o -c %s",\n  "file": "%s"\n}\n' \
+            "$between" "$work" "$1 -I$work/include -O3" "$work/core/$file.cpp" "$work/core/$file.cpp"
+        between=,
     done >"$work/compile_commands.json"
-    expect() {  # expect SECONDS PATTERN STATUS
-        out=$(run includes "$work" "$work" "$1" 2>&1)
+    echo ']' >>"$work/compile_commands.json"
+    expect() {  # expect SECONDS PATTERN STATUS MODE
+        out=$(run "$4" "$work" "$work" "$1" 2>&1)
         status=$?
         if [ "$status" -eq "$3" ] && grep -q "$2" <<<"$out"; then return; fi
-        printf 'FAILED: expected "%s" and %s, got %s and:\n%s\n' "$2" "$3" "$status" "$out"
+        printf 'FAILED: expected "%s" and %s of %s, got %s and:\n%s\n' "$2" "$3" "$4" "$status" "$out"
         failures=1
     }
-    expect 60 "failed: $work/core/bad.cpp" 1
-    expect 60 '1 files are fine, 1 are not' 1
-    expect 0 "left out: $work/core/good.cpp" 0
+    expect 60 "failed: $work/core/bad.cpp" 1 includes
+    expect 60 '2 files are fine, 2 are not' 1 includes
+    expect 0 "left out: $work/core/good.cpp" 0 includes
+    if clang-tidy --version >/dev/null 2>&1; then
+        expect 60 "failed: $work/core/bad.cpp" 1 tidy
+        # Both failed ones again, and the fine ones no more.
+        expect 60 "failed: $work/core/bad_test.cpp" 1 includes
+        expect 60 '0 files are fine, 2 are not; .* 2 were looked at' 1 includes
+        echo >>"$work/core/good.cpp"
+        expect 60 '2 files are fine, 2 are not; .* 0 were looked at' 1 includes
+    fi
     rm -rf "$work"
     return $failures
 }

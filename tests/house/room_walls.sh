@@ -19,7 +19,8 @@ optics/field     core
 optics/thesis    optics/field
 optics           filters optics/thesis
 stereo           raster
-stereo/thesis    stereo
+stereo/solver    stereo
+stereo/thesis    stereo/solver
 app/scene        optics stereo stereo/thesis scenes
 app/frame        app/scene raster/exact
 app/pair         app/frame

@@ -334,7 +334,7 @@ TEST(Dirt, BadNumbersSayWhich) {
         change(d);
         try {
             dirt_transmission(d, 8, 8);
-        } catch (const UsageError& error) {
+        } catch (const InputError& error) {
             return error.what();
         }
         return "no error";

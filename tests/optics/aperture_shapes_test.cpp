@@ -290,7 +290,7 @@ TEST(Shapes, BadParametersSayWhich) {
         change(shape);
         try {
             make_aperture(shape, 64, 1);
-        } catch (const UsageError& error) {
+        } catch (const InputError& error) {
             return error.what();
         }
         return "no error";
@@ -305,9 +305,9 @@ TEST(Shapes, BadParametersSayWhich) {
                   s.gap = 0.2;
               }),
               "aperture: gap is 0.2, must be 0 to half a segment's width");
-    EXPECT_THROW(make_aperture({}, 0, 1), UsageError);
-    EXPECT_THROW(make_aperture({}, 40000, 1), UsageError);
-    EXPECT_THROW(make_aperture({}, 64, 0), UsageError);
+    EXPECT_THROW(make_aperture({}, 0, 1), InputError);
+    EXPECT_THROW(make_aperture({}, 40000, 1), InputError);
+    EXPECT_THROW(make_aperture({}, 64, 0), InputError);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 #include "stereo/thesis/warp.h"
 #include "tests/pair/limit_cases.h"
 

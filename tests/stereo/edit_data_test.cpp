@@ -11,7 +11,7 @@
 
 #include "core/pnm.h"
 #include "stereo/edit.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 namespace {

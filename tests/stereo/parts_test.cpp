@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stereo/solver.h"
-#include "stereo/system_parts.h"
+#include "stereo/solver/solver.h"
+#include "stereo/solver/system_parts.h"
 #include "stereo/thesis/cascade.h"
 #include "tests/stereo/small_solver.h"
 

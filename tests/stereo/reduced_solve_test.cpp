@@ -9,7 +9,7 @@
 #include "core/scene.h"
 #include "stereo/edit.h"
 #include "stereo/reduced_system.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 #include "stereo/upsample.h"
 #include "stereo/warm_start.h"
 #include "tests/stereo/ray_scene.h"

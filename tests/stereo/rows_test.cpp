@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/isa.h"
-#include "stereo/grid_plane.h"
-#include "stereo/grid_restrict.h"
-#include "stereo/grid_rows.h"
+#include "stereo/solver/grid_plane.h"
+#include "stereo/solver/grid_restrict.h"
+#include "stereo/solver/grid_rows.h"
 #include "stereo/thesis/half_rows.h"
 
 namespace obscura {

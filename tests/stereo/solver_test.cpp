@@ -6,9 +6,9 @@
 #include <cmath>
 #include <random>
 
-#include "stereo/conjugate_gradients.h"
-#include "stereo/full_multigrid.h"
-#include "stereo/solver.h"
+#include "stereo/solver/conjugate_gradients.h"
+#include "stereo/solver/full_multigrid.h"
+#include "stereo/solver/solver.h"
 #include "stereo/thesis/cascade.h"
 #include "stereo/thesis/methods.h"
 

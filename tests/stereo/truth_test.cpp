@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "bench/stereo/scenes.h"
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 #ifdef OBSCURA_EIGEN
 #include <Eigen/Sparse>

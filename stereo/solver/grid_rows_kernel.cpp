@@ -1,7 +1,7 @@
 // The inner loops of the solvers, sixteen numbers at a time.
 
 #include "core/simd.h"
-#include "stereo/grid_rows.h"
+#include "stereo/solver/grid_rows.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {

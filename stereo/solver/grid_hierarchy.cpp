@@ -1,13 +1,13 @@
-#include "stereo/grid_hierarchy.h"
+#include "stereo/solver/grid_hierarchy.h"
 
 #include <algorithm>
 #include <cstring>
 #include <tuple>
 
-#include "stereo/dense_cholesky.h"
-#include "stereo/grid_couplings.h"
-#include "stereo/grid_restrict.h"
 #include "stereo/grid_tasks.h"
+#include "stereo/solver/dense_cholesky.h"
+#include "stereo/solver/grid_couplings.h"
+#include "stereo/solver/grid_restrict.h"
 
 namespace obscura {
 namespace {

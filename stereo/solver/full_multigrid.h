@@ -2,7 +2,7 @@
 // Full multigrid: a first solution from the coarsest level up, one V-cycle per level (Brandt 1977;
 // Trottenberg, Oosterlee, Schueller 2001, section 2.6).
 
-#include "stereo/v_cycle.h"
+#include "stereo/solver/v_cycle.h"
 
 namespace obscura {
 

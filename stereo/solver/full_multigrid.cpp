@@ -1,7 +1,7 @@
-#include "stereo/full_multigrid.h"
+#include "stereo/solver/full_multigrid.h"
 
-#include "stereo/grid_restrict.h"
 #include "stereo/grid_tasks.h"
+#include "stereo/solver/grid_restrict.h"
 
 namespace obscura {
 namespace {

@@ -1,10 +1,10 @@
-#include "stereo/grid_couplings.h"
+#include "stereo/solver/grid_couplings.h"
 
 #include <algorithm>
 #include <tuple>
 
 #include "core/parallel.h"
-#include "stereo/grid_restrict.h"
+#include "stereo/solver/grid_restrict.h"
 
 namespace obscura {
 namespace {

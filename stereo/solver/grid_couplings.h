@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "stereo/grid_hierarchy.h"
+#include "stereo/solver/grid_hierarchy.h"
 
 namespace obscura {
 

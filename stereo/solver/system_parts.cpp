@@ -1,11 +1,11 @@
-#include "stereo/system_parts.h"
+#include "stereo/solver/system_parts.h"
 
 #include <algorithm>
 #include <cstring>
 #include <tuple>
 
 #include "core/union_find.h"
-#include "stereo/dense_cholesky.h"
+#include "stereo/solver/dense_cholesky.h"
 
 namespace obscura {
 namespace {

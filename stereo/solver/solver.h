@@ -5,8 +5,8 @@
 
 #include "core/isa.h"
 #include "stereo/disparity_system.h"
-#include "stereo/grid_hierarchy.h"
-#include "stereo/solve_report.h"
+#include "stereo/solver/grid_hierarchy.h"
+#include "stereo/solver/solve_report.h"
 
 namespace obscura {
 

@@ -25,7 +25,7 @@
 
 #include "core/isa.h"
 #include "stereo/disparity_system.h"
-#include "stereo/grid_plane.h"
+#include "stereo/solver/grid_plane.h"
 
 namespace obscura {
 

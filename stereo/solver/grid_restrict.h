@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "stereo/grid_rows.h"
+#include "stereo/solver/grid_rows.h"
 
 namespace obscura {
 

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/scalar_lanes.h"
-#include "stereo/grid_rows.h"
+#include "stereo/solver/grid_rows.h"
 
 namespace obscura::ref {
 namespace {

@@ -1,9 +1,9 @@
-#include "stereo/v_cycle.h"
+#include "stereo/solver/v_cycle.h"
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "stereo/dense_cholesky.h"
-#include "stereo/grid_restrict.h"
+#include "stereo/solver/dense_cholesky.h"
+#include "stereo/solver/grid_restrict.h"
 
 namespace obscura {
 namespace {

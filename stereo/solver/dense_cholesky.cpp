@@ -1,4 +1,4 @@
-#include "stereo/dense_cholesky.h"
+#include "stereo/solver/dense_cholesky.h"
 
 #include <cmath>
 

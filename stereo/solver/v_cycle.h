@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/stopwatch.h"
-#include "stereo/grid_hierarchy.h"
-#include "stereo/grid_rows.h"
+#include "stereo/solver/grid_hierarchy.h"
+#include "stereo/solver/grid_rows.h"
 
 namespace obscura {
 

@@ -1,13 +1,13 @@
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 #include <algorithm>
 
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "stereo/conjugate_gradients.h"
-#include "stereo/full_multigrid.h"
-#include "stereo/system_parts.h"
+#include "stereo/solver/conjugate_gradients.h"
+#include "stereo/solver/full_multigrid.h"
+#include "stereo/solver/system_parts.h"
 
 namespace obscura {
 namespace {

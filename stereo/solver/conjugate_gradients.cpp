@@ -1,4 +1,4 @@
-#include "stereo/conjugate_gradients.h"
+#include "stereo/solver/conjugate_gradients.h"
 
 #include <algorithm>
 #include <cmath>

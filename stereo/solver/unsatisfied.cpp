@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stereo/solver.h"
+#include "stereo/solver/solver.h"
 
 namespace obscura {
 namespace {

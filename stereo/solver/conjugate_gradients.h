@@ -6,8 +6,8 @@
 // iteration is three passes over memory: down and up the V-cycle's finest level (v_cycle.h), then the new
 // direction, its product with the matrix, the solution's update and all sums.
 
-#include "stereo/solver.h"
-#include "stereo/v_cycle.h"
+#include "stereo/solver/solver.h"
+#include "stereo/solver/v_cycle.h"
 
 namespace obscura {
 
