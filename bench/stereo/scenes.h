@@ -22,7 +22,8 @@ enum class StereoCase {
     offset_60,       ///< the anchor is 60 px off
     many_sets,       ///< 16 matching sets, sources anywhere
     sky,             ///< the wall's upper part is sky, where nothing is valid
-    one_pixel_poles  ///< 60 poles of one pixel at any size, every second one anchored 12 px off
+    one_pixel_poles,  ///< 60 poles of one pixel at any size, every second one anchored 12 px off
+    poles_before_sky  ///< both: the poles stand on the floor, and most of each has no neighbours but its own
 };
 
 std::vector<StereoCase> stereo_cases();
