@@ -38,7 +38,7 @@ OBSCURA_INLINE F32 filtered(const PcfView& view, bool clamp, const Receivers16& 
         const F32 rise_y = r.slope_y * (to_centre_y + splat(static_cast<float>(j - reach)));
         F32 row = splat(0.0f);
         for (std::int32_t i = 0; i < side; ++i) {
-            const F32 depth = r.depth + min(rise_x[i] + rise_y, splat(0.0f));
+            const F32 depth = tap_depth(r.depth, rise_x[i] + rise_y);
             Mask lit = less_equal(depth, gather(view.stored, column[i] + row_start[j]));
             if constexpr (!inside_map) {
                 if (!clamp) lit = lit | ~(column_inside[i] & row_inside[j]);

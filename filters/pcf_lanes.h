@@ -73,8 +73,13 @@ OBSCURA_INLINE Receivers16 place(const PcfView& view, const Moved16& p) {
     r.slope_y = dot(p.n, splat3(view.slope_y)) * inv_nl;
     const F32 off_plane = splat(pcf_position_error) * p.reach * step * inv_nl;
     const F32 snap = splat(pcf_snap) * (abs(r.slope_x) + abs(r.slope_y));
-    r.depth = min(to_f32(Z), splat(1.0f)) - ((off_plane + snap) + splat(pcf_depth_error));
+    r.depth = to_f32(Z) - ((off_plane + snap) + splat(pcf_depth_error));
     return r;
+}
+
+/// Of the receiver's plane at a tap where it has risen by `rise`.
+OBSCURA_INLINE F32 tap_depth(const F32& depth, const F32& rise) {
+    return min(depth + min(rise, splat(0.0f)), splat(1.0f));
 }
 
 OBSCURA_INLINE F32 tap_weight(int k, int side, const F32& f) {

@@ -63,9 +63,7 @@ void place(const PcfView& view, const Moved& p, PcfPlace& r) {
     r.slope_y = dot(p.n, Vec3f{view.slope_y[0], view.slope_y[1], view.slope_y[2]}) * inv_nl;
     const float off_plane = pcf_position_error * p.reach * (view.step * static_cast<float>(inv)) * inv_nl;
     const float snap = pcf_snap * (std::fabs(r.slope_x) + std::fabs(r.slope_y));
-    // Beyond the map's depth range there is only background, at depth 1.
-    r.depth = lane_min(static_cast<float>(p.row(view.to_map[2]) * inv), 1.0f) -
-              ((off_plane + snap) + pcf_depth_error);
+    r.depth = static_cast<float>(p.row(view.to_map[2]) * inv) - ((off_plane + snap) + pcf_depth_error);
 }
 
 /// Square of the way on the map that a step on the receiver's plane makes.

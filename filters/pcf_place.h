@@ -16,7 +16,7 @@ struct PcfPlace {
     enum Kind { nothing_there, turned_away, before_near, on_map } kind = nothing_there;
     int view = 0;
     double X = 0, Y = 0;             ///< texels, not farther off the map than 8
-    float depth = 0;                 ///< of the receiver
+    float depth = 0;                 ///< of the receiver; above 1 beyond the casters' range
     float slope_x = 0, slope_y = 0;  ///< of its plane: depth per texel
     float tap_texels = 1;            ///< hierarchical: texels a side that its taps want to span, in [1, size]
     bool asks() const { return kind == before_near || kind == on_map; }
@@ -68,7 +68,10 @@ struct Kernel {
     float rise_x(int i) const { return slope_x * (to_centre_x + from_own(i)); }
     float rise_y(int j) const { return slope_y * (to_centre_y + from_own(j)); }
     /// Of the receiver's plane at tap (i, j). Rises are monotone in i and in j, so corners are its extremes.
-    float depth_at(int i, int j) const { return depth + lane_min((rise_x(i) + rise_y(j)) - bias, 0.0f); }
+    /// Beyond the casters' range there is only background, at depth 1; the plane may come back from there.
+    float depth_at(int i, int j) const {
+        return lane_min(depth + lane_min((rise_x(i) + rise_y(j)) - bias, 0.0f), 1.0f);
+    }
     /// Weighted mean of lit(i, j) over the taps.
     template <class Lit>
     float mean(Lit&& lit) const {

@@ -49,7 +49,7 @@ OBSCURA_INLINE void set_kernel(const Receivers16& r, int side, int level, Kernel
 }
 
 OBSCURA_INLINE F32 depth_over(const Kernel16& k, const F32& rise) {
-    return k.depth + min(rise - k.bias, splat(0.0f));
+    return tap_depth(k.depth, rise - k.bias);
 }
 
 /// Weighted mean of lit(i, j, depth of the receiver's plane) over the taps.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/frame/glare_margin.h"
 #include "app/frame/glare_memory.h"
 #include "app/frame/lens.h"
 #include "app/frame/source_kernels.h"
@@ -76,6 +77,7 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
     GlareStats& stats = frame.stats.glare.emplace();
     const GlareParams params = glare_params(scene.optics, scene.render);
     stats.margin_px = -frame.x0;
+    dim_margin(stats.margin_px, frame.radiance.view());
     const std::int64_t bright = count_bright(frame.radiance.view(), params.clip);
     if (bright == 0) {
         // Without a kernel: none is needed to find that there is nothing to do.

@@ -51,6 +51,12 @@ void write_accuracy(Out out, const std::vector<AccuracyRow>& rows) {
     }
 }
 
+std::string auto_text(const SweepRow& row) {
+    const std::string size = size_name(row.found);
+    if (row.magnification == 1) return "auto, " + size;
+    return fmt::format("auto of 1/{:.0f} pixel, {}", 1 / row.magnification, size);
+}
+
 void write_sweep(Out out, const std::vector<SweepRow>& rows) {
     if (rows.empty()) return;
     fmt::format_to(
@@ -67,7 +73,7 @@ void write_sweep(Out out, const std::vector<SweepRow>& rows) {
     for (const SweepRow& row : rows) {
         const bool is_exact = row.method == exact_name;
         const std::string what = is_exact         ? row.method
-                                 : row.asked == 0 ? "auto, " + size_name(row.found)
+                                 : row.asked == 0 ? auto_text(row)
                                                   : size_name(row.asked);
         if (!row.problem.empty()) {
             fmt::format_to(out, "| {} | {} | {} | {} |\n", row.scene, row.elevation_deg, what, row.problem);
@@ -77,7 +83,7 @@ void write_sweep(Out out, const std::vector<SweepRow>& rows) {
         fmt::format_to(out, "| {} | {} | {} | {:.4f} | {} | {} | {} | {:.1f} | {:.2f} |\n", row.scene,
                        row.elevation_deg, what, percent, row.wrong.wrong, row.wrong.leaks,
                        kinds_text(row.wrong), megabytes(static_cast<std::int64_t>(row.bytes)), row.build_s);
-        if (row.asked != 0) continue;
+        if (row.asked != 0 || row.magnification != 1) continue;
         Share& share = is_exact ? of_exact : of_auto;
         share.sum += percent;
         share.worst = std::max(share.worst, percent);
@@ -276,15 +282,16 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
 
 std::string sweep_csv(const std::vector<SweepRow>& rows) {
     std::string text =
-        "scene,triangles,elevation_deg,method,asked,found,bytes,build_s,covered,wrong,wrong_percent,leaks,"
+        "scene,triangles,elevation_deg,method,asked,magnification,found,bytes,build_s,covered,wrong,"
+        "wrong_percent,leaks,"
         "open,"
         "grazing,"
         "outline,inside,off,edge,beside,unexplained,problem\n";
     for (const SweepRow& row : rows) {
         const WrongPixels& w = row.wrong;
-        fmt::format_to(Out(text), "{},{},{},{},{},{},{},{:.3f},{},{},{:.6f},{},", row.scene, row.triangles,
-                       row.elevation_deg, row.method, row.asked, row.found, row.bytes, row.build_s, w.covered,
-                       w.wrong, 100 * w.fraction(), w.leaks);
+        fmt::format_to(Out(text), "{},{},{},{},{},{},{},{},{:.3f},{},{},{:.6f},{},", row.scene, row.triangles,
+                       row.elevation_deg, row.method, row.asked, row.magnification, row.found, row.bytes,
+                       row.build_s, w.covered, w.wrong, 100 * w.fraction(), w.leaks);
         for (const std::size_t pixels : w.by_kind)
             fmt::format_to(Out(text), "{},", pixels);
         text += row.problem.empty() ? "\n" : "left out\n";

@@ -74,8 +74,9 @@ struct SweepRow {
     std::size_t triangles = 0;
     double elevation_deg = 0;
     std::string method;
-    int asked = 0;  ///< compressed: texels a side; 0: auto
-    int found = 0;  ///< what it came to
+    int asked = 0;             ///< compressed: texels a side; 0: auto
+    double magnification = 1;  ///< auto: pixels that a texel may span at most
+    int found = 0;             ///< what it came to
     std::uint64_t bytes = 0;
     double build_s = 0;
     WrongPixels wrong;

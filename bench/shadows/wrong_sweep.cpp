@@ -62,7 +62,10 @@ namespace {
 
 std::string what_was_asked(const SweepRow& row) {
     if (row.method == exact_name) return exact_name;
-    return row.asked == auto_resolution ? fmt::format("auto, {}", row.found) : fmt::format("{}", row.asked);
+    if (row.asked != auto_resolution) return fmt::format("{}", row.asked);
+    return row.magnification == 1
+               ? fmt::format("auto, {}", row.found)
+               : fmt::format("auto of 1/{:.0f} pixel, {}", 1 / row.magnification, row.found);
 }
 
 SweepRow sweep_row(SweepStage& stage, SweepRow row, const ShadowSettings& settings,
@@ -104,10 +107,13 @@ std::vector<SweepRow> measure_sweep(const ShadowRecipe& recipe, const ShadowBenc
         rows.push_back(sweep_row(stage, row, settings, options));
         row.method = compressed_name;
         settings.method = ShadowMethod::compressed;
-        for (const int size : {auto_resolution, most_map_resolution}) {
-            row.asked = settings.resolution = size;
+        for (const double magnification : {1.0, 1.0 / 4, 1.0 / 16}) {
+            row.magnification = settings.max_magnification = magnification;
             rows.push_back(sweep_row(stage, row, settings, options));
         }
+        row.asked = settings.resolution = most_map_resolution;
+        row.magnification = 1;
+        rows.push_back(sweep_row(stage, row, settings, options));
     }
     return rows;
 }

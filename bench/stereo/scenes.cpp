@@ -158,6 +158,10 @@ void want_gradients(const MiddleView& view, DisparitySystem& system) {
     }
 }
 
+bool has_thin_poles(StereoCase stereo_case) {
+    return stereo_case == StereoCase::one_pixel_poles || stereo_case == StereoCase::poles_before_sky;
+}
+
 /// How far an object is anchored from `start`, pixels at 1920, and how strongly; weight 0: it is not.
 struct BenchAnchor {
     double offset = 0, weight = 0;
@@ -169,7 +173,7 @@ BenchAnchor anchor_of(StereoCase stereo_case, std::uint32_t object) {
     if (object == anchored_sphere) return {0, heavy ? 100.0 : 1.0};
     if (contradictory && object == lifted_sphere) return {25, 100};
     if (contradictory && object == ground) return {-15, 100};
-    if (stereo_case == StereoCase::one_pixel_poles && object >= first_pole && object % 2 == 0) return {12, 1};
+    if (has_thin_poles(stereo_case) && object >= first_pole && object % 2 == 0) return {12, 1};
     return {};
 }
 
@@ -227,9 +231,16 @@ void want_matches(StereoCase stereo_case, const MiddleView& view, DisparitySyste
 }  // namespace
 
 std::vector<StereoCase> stereo_cases() {
-    return {StereoCase::base,          StereoCase::no_matching, StereoCase::anchors_100,
-            StereoCase::contradictory, StereoCase::epsilon_1e8, StereoCase::offset_60,
-            StereoCase::many_sets,     StereoCase::sky,         StereoCase::one_pixel_poles};
+    return {StereoCase::base,
+            StereoCase::no_matching,
+            StereoCase::anchors_100,
+            StereoCase::contradictory,
+            StereoCase::epsilon_1e8,
+            StereoCase::offset_60,
+            StereoCase::many_sets,
+            StereoCase::sky,
+            StereoCase::one_pixel_poles,
+            StereoCase::poles_before_sky};
 }
 
 const char* stereo_case_name(StereoCase stereo_case) {
@@ -252,6 +263,8 @@ const char* stereo_case_name(StereoCase stereo_case) {
             return "sky";
         case StereoCase::one_pixel_poles:
             return "60 poles of one pixel";
+        case StereoCase::poles_before_sky:
+            return "60 poles before sky";
     }
     return "";
 }
@@ -266,10 +279,10 @@ MiddleView stereo_bench_view(StereoCase stereo_case, int width, int height) {
     view.object = Image<std::uint32_t>(width, height, nothing_seen);
     view.material = view.object;
     view.disparity = DisparityMap(width, height, std::numeric_limits<float>::lowest());
-    put_background(view, stereo_case == StereoCase::sky);
+    put_background(view, stereo_case == StereoCase::sky || stereo_case == StereoCase::poles_before_sky);
     put_spheres(view);
     put_box(view);
-    if (stereo_case == StereoCase::one_pixel_poles)
+    if (has_thin_poles(stereo_case))
         put_poles(view, {60, 1, 0.02, 0.016});
     else
         put_poles(view, {6, std::max(1, width / 480), 0.1, 0.14});

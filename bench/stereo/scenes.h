@@ -15,14 +15,15 @@ namespace obscura {
 /// rest are the base with one thing changed.
 enum class StereoCase {
     base,
-    no_matching,     ///< without the matching set
-    anchors_100,     ///< the anchor weighs 100
-    contradictory,   ///< and so do two more, of a sphere and of the floor it stands on, 40 px apart
-    epsilon_1e8,     ///< epsilon 1e-8: hardly anything holds the level of what is not anchored
-    offset_60,       ///< the anchor is 60 px off
-    many_sets,       ///< 16 matching sets, sources anywhere
-    sky,             ///< the wall's upper part is sky, where nothing is valid
-    one_pixel_poles  ///< 60 poles of one pixel at any size, every second one anchored 12 px off
+    no_matching,      ///< without the matching set
+    anchors_100,      ///< the anchor weighs 100
+    contradictory,    ///< and so do two more, of a sphere and of the floor it stands on, 40 px apart
+    epsilon_1e8,      ///< epsilon 1e-8: hardly anything holds the level of what is not anchored
+    offset_60,        ///< the anchor is 60 px off
+    many_sets,        ///< 16 matching sets, sources anywhere
+    sky,              ///< the wall's upper part is sky, where nothing is valid
+    one_pixel_poles,  ///< 60 poles of one pixel at any size, every second one anchored 12 px off
+    poles_before_sky  ///< both: the poles stand on the floor, and most of each has no neighbours but its own
 };
 
 std::vector<StereoCase> stereo_cases();

@@ -123,11 +123,21 @@ void add_solution(const GridHierarchy& h, const IterationVectors& w, const Exec&
 /// What is left after a step: the tail of a geometric series that shrinks as steps have, at the slower of
 /// their last two rates, and no faster than `fastest`. Hubs, masks and thin things are eigenvalues apart from
 /// the others, on which steps may pause and grow again; so half of the step before counts too, and no step is
-/// trusted to be nearly the last.
+/// trusted to be nearly the last. Where things that nothing joins share coarse cells, the pauses are longer:
+/// there the worst of the last three counts.
 class ErrorEstimate {
   public:
-    explicit ErrorEstimate(double fastest) : fastest_(fastest) {}
+    ErrorEstimate(double fastest, bool long_pauses) : fastest_(fastest), long_pauses_(long_pauses) {}
     double after(double step) {
+        const double now = tail_after(step);
+        const double worst = std::max({now, last_[0], last_[1]});
+        last_[1] = last_[0];
+        last_[0] = now;
+        return long_pauses_ ? worst : now;
+    }
+
+  private:
+    double tail_after(double step) {
         constexpr double slowest = 0.9;
         double ratio = slowest;
         if (before_ > 0) ratio = step / before_;
@@ -139,9 +149,14 @@ class ErrorEstimate {
         return bound * ratio / (1 - ratio);
     }
 
-  private:
-    double fastest_, before_ = 0, earlier_ = 0;
+    double fastest_;
+    bool long_pauses_;
+    double before_ = 0, earlier_ = 0;
+    double last_[2] = {0, 0};
 };
+
+/// A few such cells are in every outline before a sky, and do no harm.
+constexpr std::int64_t few_shared_cells = 64;
 
 }  // namespace
 
@@ -227,7 +242,8 @@ void iterate(const DisparitySystem& s, GridHierarchy& h, const SolverParams& par
     const auto unknowns = static_cast<double>(valid.size()) -
                           static_cast<double>(std::count(valid.begin(), valid.end(), std::uint8_t{0}));
     // A pause of few pixels hardly shows in the mean.
-    ErrorEstimate largest(0.4), root_mean_square(0.3);
+    const bool long_pauses = h.shared_cells > few_shared_cells;
+    ErrorEstimate largest(0.4, long_pauses), root_mean_square(0.3, long_pauses);
     double alpha = 0, rz_before = 0, rz_first = 0;
     report.converged = false;
     while (!report.converged && report.iterations < params.max_iterations) {

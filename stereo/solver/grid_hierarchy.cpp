@@ -207,6 +207,26 @@ void set_coarse_edges(const GridLevel& fine, const Image<std::uint8_t>& fine_cel
     });
 }
 
+/// Coarse cells that hold unknowns which nothing joins inside of them: things apart, as poles before a sky.
+std::int64_t cells_shared(const GridLevel& fine, const Image<std::uint8_t>& cells) {
+    std::int64_t shared = 0;
+    const auto there = [&](int x, int y) { return x < fine.width && y < fine.height && cells(x, y) != 0; };
+    const auto joined = [&](int x, int y, int x2, int y2) {
+        if (!there(x, y) || !there(x2, y2)) return 0;
+        if (fine.uniform_edge > 0) return 1;
+        return (y == y2 ? fine.edge_x.row(y)[x] : fine.edge_y.row(y)[x]) > 0 ? 1 : 0;
+    };
+    for (int y = 0; y < fine.height; y += 2) {
+        for (int x = 0; x < fine.width; x += 2) {
+            const int count = there(x, y) + there(x + 1, y) + there(x, y + 1) + there(x + 1, y + 1);
+            const int edges = joined(x, y, x + 1, y) + joined(x, y + 1, x + 1, y + 1) +
+                              joined(x, y, x, y + 1) + joined(x + 1, y, x + 1, y + 1);
+            shared += edges < count - 1 ? 1 : 0;
+        }
+    }
+    return shared;
+}
+
 void finish_level(const Image<std::uint8_t>& cells, LevelPulls& pulls, const Exec& exec, GridLevel& level) {
     set_diagonal(cells, pulls, exec, level);
     pulls.coarse = coarse_cells(cells, exec);
@@ -307,8 +327,11 @@ GridHierarchy grid_hierarchy(const DisparitySystem& system, const Exec& exec) {
     Image<std::uint8_t> cells;
     LevelPulls pulls;
     h.levels.push_back(finest_level(system, h, exec, cells, pulls));
-    while (h.levels.size() < 2 || std::max(h.levels.back().width, h.levels.back().height) > coarsest_side)
+    const bool masked = std::memchr(system.valid.pixels.data(), 0, system.valid.pixels.size()) != nullptr;
+    while (h.levels.size() < 2 || std::max(h.levels.back().width, h.levels.back().height) > coarsest_side) {
+        if (masked) h.shared_cells += cells_shared(h.levels.back(), cells);
         h.levels.push_back(coarser_level(h.levels.back(), h.hubs.size(), exec, cells, pulls));
+    }
     factor_coarsest(h);
     return h;
 }

@@ -8,6 +8,7 @@
 #include "stereo/solver/conjugate_gradients.h"
 #include "stereo/solver/full_multigrid.h"
 #include "stereo/solver/system_parts.h"
+#include "stereo/solver/thin_trees.h"
 
 namespace obscura {
 namespace {
@@ -128,13 +129,16 @@ Solution solve(const DisparitySystem& system, const SolverParams& params, const 
     }
     SolverCache own;
     SolverCache& use = cache != nullptr ? *cache : own;
-    const SystemParts parts = system_parts(system);
+    const std::optional<WithoutTrees> thin = without_trees(system);
+    const DisparitySystem& rest = thin ? thin->rest : system;
+    const SystemParts parts = system_parts(rest);
     if (parts.parts.size() == 1 &&
-        parts.parts[0].pixels == static_cast<std::int64_t>(system.valid.pixels.size())) {
-        solve_connected(system, params, exec, use, solution.disparity, report);
+        parts.parts[0].pixels == static_cast<std::int64_t>(rest.valid.pixels.size())) {
+        solve_connected(rest, params, exec, use, solution.disparity, report);
     } else {
-        solve_parts(system, parts, params, exec, use, solution.disparity, report);
+        solve_parts(rest, parts, params, exec, use, solution.disparity, report);
     }
+    if (thin) put_trees_back(thin->pixels, solution.disparity);
     report.solve_s = clock.seconds() - report.setup_s;
     if (params.verify) judge(system, exec, solution);
     return solution;

@@ -60,6 +60,7 @@ inline std::vector<SurfaceBlock> blocks_at(const std::vector<Place>& places, flo
 }
 
 /// Every texel of the map and three around it, at several places of the texel, row by row; then anywhere.
+/// Some lie beyond the depth range.
 inline std::vector<Place> places_everywhere(int size, std::uint32_t seed) {
     std::mt19937 rng(seed);
     std::uniform_real_distribution<float> within(0, 1);
@@ -68,13 +69,13 @@ inline std::vector<Place> places_everywhere(int size, std::uint32_t seed) {
         for (int x = -3; x < size + 3; ++x) {
             for (int k = 0; k < 2; ++k) {
                 places.push_back({static_cast<float>(x) + within(rng), static_cast<float>(y) + within(rng),
-                                  static_cast<float>(rng() % 33) / 32.0f});
+                                  static_cast<float>(rng() % 36) / 32.0f});
             }
         }
     }
     for (int k = 0; k < 1000; ++k) {
         places.push_back({within(rng) * static_cast<float>(size), within(rng) * static_cast<float>(size),
-                          static_cast<float>(rng() % 33) / 32.0f});
+                          static_cast<float>(rng() % 36) / 32.0f});
     }
     return places;
 }

@@ -246,5 +246,26 @@ TEST(CoincidentShadows, FallOnWhatCastsNone) {
     }
 }
 
+/// A sheet of 1 cm is the whole depth range of its tree: a steep ground far below lies beyond it, and its
+/// plane comes back into it within a texel only where it does so in the scene.
+TEST(CoincidentShadows, OfAThinRoofFallOnSteepGroundThatCastsNone) {
+    Scene scene = empty_scene(96, 72);
+    add(scene, box({-1, 2, -1}, {1, 2.01f, 1}), 0);
+    Mesh ground = plane(6, 6);
+    for (Vec3f& p : ground.positions)
+        p.y = p.x;
+    ground.normals.clear();
+    compute_normals(ground, 0);
+    add(scene, ground, 0, {0, -1, 0});
+    scene.mesh.objects[scene.mesh.object.back()].casts_shadow = false;
+    scene.camera.eye = {-4, 4, 4};
+    scene.camera.look_at = {0, -0.5, 0};
+    scene.lights.push_back(directional({0.02, -1, 0.01}, {1, 1, 1}, 3, 256));
+    int lit = 0, dark = 0;
+    expect_agreement(scene, 0.1, lit, dark);
+    EXPECT_GT(lit, 1'000);
+    EXPECT_GT(dark, 500);
+}
+
 }  // namespace
 }  // namespace obscura

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "app/frame/glare_margin.h"
 #include "app/frame/lens.h"
@@ -39,7 +40,7 @@ horizon_w_m2_sr = 3
 ground_w_m2_sr = 3
 [optics]
 blades = 6
-f_number = 32
+f_number = 24
 wavelengths = 12
 mask_px = 128
 radius_px = 90
@@ -155,6 +156,41 @@ TEST(GlareMargin, ALampOutsideOfTheFrameGlaresIntoIt) {
     EXPECT_GT(after, before + 0.5f);
     EXPECT_TRUE(with.object == plain.object) << "other channels have no margin";
     EXPECT_TRUE(with.depth_m == plain.depth_m);
+}
+
+TEST(GlareMargin, ALampThatLeavesThePictureLosesItsGlareLittleByLittle) {
+    // Half a pixel wide, from the frame's border to beyond the margin, a third of a pixel at a time.
+    std::vector<float> seen;
+    for (int step = 0; step <= 54; ++step) {
+        std::string text = lamp_aside(1.96 + 0.01 * step, "");
+        const std::string size = "size_m = [0.3, 0.3, 0.3]";
+        text.replace(text.find(size), size.size(), "size_m = [0.015, 0.3, 0.015]");
+        const Frame frame = render_frame(scene_of(text));
+        ASSERT_EQ(frame.stats.glare->margin_px, 12);
+        // Near enough for the streak to reach from everywhere in the margin.
+        float sum = 0;
+        for (int x = 104; x < 120; ++x)
+            sum += frame.radiance.view()(x, 42).y;
+        seen.push_back(sum);
+    }
+    const float most = *std::max_element(seen.begin(), seen.end()), least = seen.back();
+    EXPECT_EQ(seen[seen.size() - 2], least) << "beyond the margin";
+    ASSERT_GT(most, least + 1);
+    float jump = 0;
+    for (std::size_t i = 1; i < seen.size(); ++i)
+        jump = std::max(jump, std::abs(seen[i] - seen[i - 1]) / (most - least));
+    RecordProperty("jump", std::to_string(jump));
+    EXPECT_LT(jump, 0.15f);
+}
+
+TEST(GlareMargin, SharesFallFromTheMiddleOfItToItsEnd) {
+    EXPECT_EQ(margin_share(0, 12), 1.0f);
+    EXPECT_EQ(margin_share(6, 12), 1.0f);
+    EXPECT_EQ(margin_share(9, 12), 0.5f);
+    EXPECT_EQ(margin_share(12, 12), 0.0f);
+    EXPECT_EQ(margin_share(0.5, 1), 1.0f);
+    for (int i = 1; i < 120; ++i)
+        EXPECT_LE(margin_share(0.1 * (i - 1), 12) - margin_share(0.1 * i, 12), 3.0f / 12 * 0.1f + 1e-6f);
 }
 
 TEST(GlareMargin, TheFrameInsideIsTheSameBits) {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "stereo/solver/solver.h"
 #include "stereo/solver/system_parts.h"
 #include "stereo/thesis/cascade.h"
+#include "stereo/solver/thin_trees.h"
 #include "tests/stereo/small_solver.h"
 
 namespace obscura {
@@ -109,6 +111,7 @@ TEST(SystemParts, EstimatesCountPixelsOfTheSystemAlone) {
     // An L of few pixels in a large window: what is not valid there must not make its error look smaller.
     DisparitySystem s = islands();
     std::fill(s.valid.pixels.begin(), s.valid.pixels.end(), std::uint8_t{0});
+    std::fill_n(s.valid.row(38), 90, std::uint8_t{1});
     std::fill_n(s.valid.row(39), 90, std::uint8_t{1});
     for (int y = 0; y < 40; ++y)
         std::fill_n(s.valid.row(y), 3, std::uint8_t{1});
@@ -145,6 +148,73 @@ TEST(Cascade, TellsHowFarItIsFromTheMinimiser) {
     EXPECT_NEAR(solution.report.error_max_px, error, 0.1);
     EXPECT_GT(solution.report.error_rms_px, 0);
     EXPECT_LT(solution.report.error_rms_px, solution.report.error_max_px);
+}
+
+/// A block with random twigs of one pixel, some anchored, some in a matching set.
+DisparitySystem twigs(unsigned seed) {
+    std::mt19937 random(seed);
+    const int width = 60, height = 50;
+    DisparityMap d(width, height);
+    Image<std::uint8_t> valid(width, height, 0);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            d(x, y) = 0.2f * static_cast<float>(x) + 0.1f * static_cast<float>(y);
+            valid(x, y) = y >= 40 ? 1 : 0;
+        }
+    }
+    for (int twig = 0; twig < 9; ++twig) {
+        int x = 3 + 6 * twig;
+        for (int y = 39; y > 2; --y) {
+            valid(x, y) = 1;
+            if (random() % 6 != 0) continue;
+            x = std::clamp(x + (random() % 2 == 0 ? 1 : -1), 1, width - 2);
+            valid(x, y) = 1;
+        }
+    }
+    DisparitySystem s = unedited_system(d, valid);
+    s.epsilon = 1e-3f;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            s.gradient_x(x, y) *= 1.5f;
+            if (valid(x, y) == 0 || random() % 5 != 0) continue;
+            s.anchor_weight(x, y) = 0.3f;
+            s.anchor_value(x, y) = d(x, y) + static_cast<float>(random() % 8);
+        }
+    }
+    return s;
+}
+
+TEST(ThinTrees, AreTakenOutAndPutBackExactly) {
+    std::size_t taken = 0;
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        DisparitySystem s = twigs(seed);
+        if (seed % 2 == 1) {
+            // The middle of a twig stays, and what lies between it and the block.
+            for (int x = 0; x < s.width(); ++x) {
+                if (s.valid(x, 20) != 0) s.sets.push_back(pixels_follow(x, 20, {{30, 45, 1.5f}}));
+            }
+        }
+        const std::optional<WithoutTrees> thin = without_trees(s);
+        ASSERT_TRUE(thin);
+        taken += thin->pixels.size();
+        for (const TreePixel& p : thin->pixels) {
+            EXPECT_EQ(thin->rest.valid(p.x, p.y), 0);
+            EXPECT_LT(p.y, seed % 2 == 1 ? 20 : 40);
+        }
+        EXPECT_LT(worst(s, solve(s, tight(), {}).disparity), 1e-3) << seed;
+    }
+    EXPECT_GT(taken, 500u);
+}
+
+TEST(ThinTrees, OfAFewPixelsStay) {
+    EXPECT_FALSE(without_trees(islands()));
+    DisparitySystem s = islands();
+    for (int y = 30; y < 36; ++y)
+        s.valid(20, y) = 1;
+    EXPECT_FALSE(without_trees(s));
+    for (int y = 36; y < 38; ++y)
+        s.valid(20, y) = 1;
+    EXPECT_EQ(without_trees(s)->pixels.size(), 8u);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "bench/stereo/scenes.h"
 #include "stereo/solver/solver.h"
@@ -146,6 +145,54 @@ INSTANTIATE_TEST_SUITE_P(Cases, Truth, testing::ValuesIn(stereo_cases()), [](con
     return name;
 });
 
+/// A floor of 20 rows with teeth before a sky, every second one anchored 6 px off.
+DisparitySystem comb(int thickness) {
+    constexpr int width = 320, height = 200;
+    DisparityMap original(width, height);
+    Image<std::uint8_t> valid(width, height);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            original(x, y) = 0.01f * static_cast<float>(x + y);
+            valid(x, y) = y >= 180 || (y >= 10 && x % 7 < thickness) ? 1 : 0;
+        }
+    }
+    DisparitySystem s = unedited_system(original, valid);
+    for (int y = 0; y < 180; ++y) {
+        for (int x = 0; x < width; ++x) {
+            if (valid(x, y) == 0 || x / 7 % 2 == 0) continue;
+            s.anchor_weight(x, y) = 1;
+            s.anchor_value(x, y) = original(x, y) + 6;
+        }
+    }
+    return s;
+}
+
+// Neighbours share coarse cells, so the solver's steps pause for long: it must not take that for the end.
+TEST(TruthOfCombs, BeforeSky) {
+#ifdef OBSCURA_EIGEN
+    for (const int thickness : {1, 2, 3}) {
+        const DisparitySystem s = comb(thickness);
+        const Eigen::VectorXd exact = truth(s);
+        const Solution solution = solve(s, {}, {});
+        const double largest = error_of(s, solution.disparity, exact).largest;
+        EXPECT_LT(largest, 3 * solution.report.error_max_px + 0.003) << thickness;
+        // Where max_iterations do not suffice, the report says so.
+        EXPECT_TRUE(solution.report.converged || thickness == 3);
+        if (solution.report.converged) {
+            EXPECT_LT(largest, 0.05) << thickness;
+        }
+        testing::Test::RecordProperty("iterations_" + std::to_string(thickness), solution.report.iterations);
+        testing::Test::RecordProperty("error_" + std::to_string(thickness), std::to_string(largest));
+        // Teeth of one pixel are no unknowns.
+        if (thickness == 1) {
+            EXPECT_LE(solution.report.iterations, 8);
+        }
+    }
+#else
+    GTEST_SKIP() << "Eigen 3 (libeigen3-dev) was not there at build time";
+#endif
+}
+
 // Things that are thin, at the sizes where steps once paused below the tolerance and the solver with them.
 TEST(TruthAt640, Sets) {
     compare(StereoCase::many_sets, {640, 360}, 12);
@@ -165,6 +212,10 @@ TEST(TruthAt960, Sky) {
 
 TEST(TruthAt960, Poles) {
     compare(StereoCase::one_pixel_poles, {960, 540}, 12);
+}
+
+TEST(TruthAt960, PolesBeforeSky) {
+    compare(StereoCase::poles_before_sky, {960, 540}, 12);
 }
 
 TEST(TruthAt960, Base) {
