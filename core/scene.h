@@ -64,7 +64,7 @@ struct Light {
                     0};       ///< unit, the way the light travels (directional, sun, spot; area: its normal)
     Vec3d position{0, 0, 0};  ///< metres (point, spot; area: its middle)
     Vec3f color{1, 1, 1};     ///< irradiance in W/m^2 per channel on a facing surface (directional, sun),
-                           ///< radiant intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
+                              ///< radiant intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
     double near_m = 0.05,
            range_m = 100;        ///< with a position: shadow depth range; light ends smoothly at range_m
@@ -87,14 +87,14 @@ enum class SkyKind { gradient, clear, overcast };
 /// The background, and the light that it sheds. The default is a gradient: a clear day under a sun of
 /// irradiance 3; the sky sheds about a quarter of that on level ground.
 struct Sky {
-    SkyKind kind = SkyKind::gradient;
     Vec3f zenith{0.10f, 0.19f, 0.38f};  ///< radiance, gradient
     Vec3f horizon{0.36f, 0.42f, 0.48f};
     Vec3f ground{0.16f, 0.145f, 0.12f};
+    float ambient = 1.0f;  ///< scale of the light it sheds
+    bool visible = true;   ///< false: background is black
+    SkyKind kind = SkyKind::gradient;
     double turbidity = 3;                   ///< clear: 2 very clear, 6 hazy
     Vec3f ground_albedo{0.2f, 0.2f, 0.2f};  ///< clear, overcast
-    float ambient = 1.0f;                   ///< scale of the light it sheds
-    bool visible = true;                    ///< false: background is black
     bool occlusion = false;                 ///< false: it reaches every surface, whatever stands before
     int samples = 64;                       ///< occlusion: directions that stand for it, 16, 64, 256 or 1024
     std::string sun;  ///< the light that clear and overcast skies follow; empty: the first that may be
