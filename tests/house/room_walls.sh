@@ -13,6 +13,7 @@ scenes           core
 raster           core
 raster/exact     raster
 hierarchy        raster
+hierarchy/stack  hierarchy
 filters          hierarchy
 optics/field     core
 optics/thesis    optics/field
