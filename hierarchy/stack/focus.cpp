@@ -182,7 +182,7 @@ FocusedViews focused_views(const Mesh& mesh, const LightSamples& samples, const 
     // The near plane lies above all casters, or where the light begins.
     FocusedViews views;
     views.resolution = params.resolution;
-    double near_h = tau > 0 ? (1 - params.near_share) / tau : 1e300;
+    double near_h = tau > 0 ? (1 - params.near_share) / tau : 3e38;
     const CasterReach reach = reach_of(mesh, plane, metric, near_h);
     const double height = std::max(reach.height.high - reach.height.low, 1e-6);
     near_h = std::min(near_h, reach.height.high + 1e-3 * height);

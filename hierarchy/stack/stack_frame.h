@@ -19,7 +19,7 @@ struct StackFrame {
     double b[4] = {0, 0, 0, 0};  ///< B
     double h[4] = {0, 0, 0, 0};  ///< metres
     double depth_top = 0, depth_per_m = 0;
-    double near_h = 1e300;  ///< what is as high or higher lies before the near plane of every map: it is lit
+    double near_h = 3e38;  ///< what is as high or higher lies before the near plane of every map: it is lit
     friend bool operator==(const StackFrame&, const StackFrame&) = default;
 };
 
@@ -28,6 +28,11 @@ struct SliceView {
     float sigma_x = 0, sigma_y = 0;  ///< texels a metre
     float tau = 0;                   ///< 1 / metre
     friend bool operator==(const SliceView&, const SliceView&) = default;
+};
+
+/// Least and greatest of each over a run of maps; low > high where the run has none.
+struct SliceRange {
+    float sigma_x[2] = {1, -1}, sigma_y[2] = {1, -1}, tau[2] = {1, -1};
 };
 
 }  // namespace obscura
