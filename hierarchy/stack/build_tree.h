@@ -16,7 +16,7 @@ struct StackTreeParams {
     /// Anisotropies to try, in [-64, 64]; what a stack has no room for counts as the most it has room for.
     /// All are built side by side from the same maps, and the tree of fewest bytes is kept, the first of
     /// several.
-    std::vector<int> anisotropies = {0, 1, 2, 3, 4, 5, -1, -2, -3};
+    std::vector<int> anisotropies = {0, -1, -2, -3, -4, -5, 1, 2, 3, 4};
     /// A tree of more nodes is given up; LimitError when all are.
     std::uint64_t max_nodes = UINT64_MAX;
     /// Also what the maps would take as quadtrees, each by itself.

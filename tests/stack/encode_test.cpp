@@ -90,40 +90,5 @@ TEST(StackEncode, OffsetsThatDoNotReach) {
     EXPECT_THROW(encoded(tree, params), LimitError);
 }
 
-/// Every texel of every map. With OBSCURA_SLOW_TESTS=1: 256^3 and 64 x 1024^2.
-void check_lossless(const Mesh& mesh, const FocusedViews& views, Receivers receivers) {
-    StackBuildParams params;
-    params.receivers = receivers;
-    const ShadowStack stack = build_stack(mesh, views, params, Exec{});
-    std::size_t outside = 0;
-    IntervalParams of_map;
-    of_map.receivers = receivers;
-    for (int k = 0; k < static_cast<int>(views.slices.size()); ++k) {
-        const Image<DepthInterval> map = interval_map(mesh, views.view(k), of_map, Exec{});
-        for (int y = 0; y < map.height; ++y) {
-            for (int x = 0; x < map.width; ++x) {
-                outside +=
-                    !contains(map(x, y), stack_value(stack.code, static_cast<unsigned>(x),
-                                                     static_cast<unsigned>(y), static_cast<unsigned>(k)));
-            }
-        }
-    }
-    EXPECT_EQ(outside, 0u) << "anisotropy " << stack.code.shape.anisotropy;
-}
-
-TEST(StackLossless, EveryTexelOfEveryMap) {
-    const bool slow = slow_tests();
-    int scene = 0;
-    for (const Lamp lamp : {Lamp::level, Lamp::tilted, Lamp::sun, Lamp::path}) {
-        ++scene;
-        const Mesh mesh = lit::scene(static_cast<std::uint32_t>(scene), scene % 2 == 0);
-        const Receivers receivers = scene < 3 ? Receivers::any : Receivers::static_only;
-        const LightSamples samples = lit::samples_of(lamp, slow ? 256 : 16);
-        check_lossless(mesh, focused_views(mesh, samples, lit::focus(slow ? 256 : 128)), receivers);
-        if (slow)
-            check_lossless(mesh, focused_views(mesh, lit::samples_of(lamp, 64), lit::focus(1024)), receivers);
-    }
-}
-
 }  // namespace
 }  // namespace obscura
