@@ -21,17 +21,17 @@ namespace {
 /// A lamp over a scene.
 struct Lit {
     const Mesh& mesh;
-    Vec3d middle;
+    Vec3d middle, lamp;
     double extent_m, ground_y;
     LightSamples samples;
 };
 
 Lit lit_scene(const Mesh& mesh, Vec3d sun, const StackSubject& subject) {
     const Bounds b = bounds_of(mesh);
-    Lit lit{mesh, (b.low + b.high) * 0.5, std::max(b.high.x - b.low.x, b.high.z - b.low.z), b.low.y, {}};
+    Lit lit{mesh, (b.low + b.high) * 0.5, {}, std::max(b.high.x - b.low.x, b.high.z - b.low.z), b.low.y, {}};
     const double side = 0.01 * subject.light_percent * lit.extent_m;
-    const Vec3d centre = lit.middle - normalize(sun) * (2 * lit.extent_m);
-    lit.samples = parallelogram_samples(centre, {side, 0, 0}, {0, 0, side}, subject.maps);
+    lit.lamp = lit.middle - normalize(sun) * (2 * lit.extent_m);
+    lit.samples = parallelogram_samples(lit.lamp, {side, 0, 0}, {0, 0, side}, subject.maps);
     return lit;
 }
 
@@ -40,6 +40,10 @@ FocusedViews focused(const Lit& lit, const StackSubject& subject) {
     params.resolution = subject.resolution;
     params.plane_point =
         subject.aim == StackAim::median ? median_plane_point(lit.mesh, {0, 1, 0}) : Vec3d{0, lit.ground_y, 0};
+    if (subject.aim == StackAim::facing) {
+        params.plane_point = lit.middle;
+        params.plane_normal = lit.lamp - lit.middle;
+    }
     return focused_views(lit.mesh, lit.samples, params);
 }
 
@@ -169,22 +173,33 @@ void count_steps(const ShadowStack& stack, const FocusedViews& views, const Scen
 }  // namespace
 
 const char* aim_name(StackAim aim) {
-    return aim == StackAim::apart ? "apart" : (aim == StackAim::ground ? "ground" : "median");
+    switch (aim) {
+        case StackAim::apart:
+            return "apart";
+        case StackAim::ground:
+            return "ground";
+        case StackAim::median:
+            return "median";
+        default:
+            return "facing";
+    }
 }
 
 std::vector<StackSubject> stack_subjects(const std::string& scene, bool quick) {
     if (quick) return {{64, 16, 5, StackAim::apart}, {64, 16, 5, StackAim::ground, true}};
-    std::vector<StackSubject> subjects{{512, 64, 5, StackAim::apart},   {512, 64, 5, StackAim::ground, true},
-                                       {512, 64, 5, StackAim::median},  {512, 256, 5, StackAim::ground, true},
-                                       {512, 256, 1, StackAim::ground}, {2048, 64, 5, StackAim::ground}};
+    std::vector<StackSubject> subjects{{512, 64, 5, StackAim::apart},
+                                       {512, 64, 5, StackAim::ground, true},
+                                       {512, 64, 5, StackAim::median},
+                                       {512, 64, 5, StackAim::facing, true},
+                                       {512, 256, 5, StackAim::ground, true}};
     // The paper's table 4.
     if (scene == "armadillo" || scene == "dragon_res2" || scene == "vienna_west") {
         for (const int side : {512, 1024}) {
-            subjects.push_back({side, side, 5, StackAim::ground});
-            subjects.push_back({side, side, 5, StackAim::median});
-            subjects.push_back({side, side, 1, StackAim::median});
+            for (const double light : {5.0, 1.0})
+                subjects.push_back({side, side, light, StackAim::median});
         }
     }
+    subjects.push_back({2048, 64, 5, StackAim::median});
     return subjects;
 }
 

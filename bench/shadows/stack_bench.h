@@ -17,6 +17,7 @@ enum class StackAim {
     apart,   ///< each at the middle of the scene, by itself
     ground,  ///< focused on the lowest plane of the scene
     median,  ///< focused on the median height of what faces up
+    facing,  ///< focused on the plane through the middle of the scene that faces the lamp
 };
 const char* aim_name(StackAim aim);
 
