@@ -1,15 +1,15 @@
 #pragma once
 // Stacks of shadow maps: soft shadows from all samples of a light, out of one octree. The room's public face.
 //
-//   const LightSamples lamp = parallelogram_samples(centre, edge_u, edge_v, 256);     light_samples.h
-//   FocusParams focus;                                                                focus.h
+//   const LightSamples lamp = parallelogram_samples(centre, edge_u, edge_v, 256);
+//   FocusParams focus;
 //   focus.plane_point = median_plane_point(mesh, {0, 1, 0});
 //   if (!can_focus(lamp, focus)) ...
 //   const ShadowStack stack = build_stack(mesh, focused_views(mesh, lamp, focus), {}, exec);
-//   const StackLookup lookup = stack_lookup(stack, eye);                              once a frame
-//   const std::vector<float> share = visible_share(lookup, points, 0, exec);          stack_query.h; 0: all
-//   samples
+//   const StackLookup lookup = stack_lookup(stack, eye);                        // once a frame
+//   const std::vector<float> share = visible_share(lookup, points, 0, exec);    // 0: all samples
 //
+// light_samples.h, focus.h and visible_share.h have the rest.
 // The sun's disc has sun_samples(), a path of the sun or a sky's directions LightSamples of their own making.
 // Files: stack_file.h. Memory while building: build_stack() says.
 

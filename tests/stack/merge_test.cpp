@@ -85,13 +85,16 @@ TEST(StackTree, EqualsBottomUpFromTriangles) {
     const Mesh mesh = solids::random_solids(5, 40, true, false);
     const std::vector<LightView> views = oracle::turning_views(mesh, 128, 16, 0.004);
     const Maps maps = oracle::interval_maps(mesh, views, Receivers::any);
-    for (const int a : {-2, 0, 3}) {
+    for (const int a : {-2, 0, 1, 3, 7}) {
         StackTreeParams params;
         params.anisotropies = {a};
+        BuildParams of_map;
+        of_map.detail_height = std::max(a, 0);
         const StackTree ours = build_stack_tree(
             16, 7,
             [&](int k) {
-                return build_certain_tree(mesh, views[static_cast<std::size_t>(k)], {}, Exec{best_isa(), 1});
+                return build_certain_tree(mesh, views[static_cast<std::size_t>(k)], of_map,
+                                          Exec{best_isa(), 1});
             },
             params, Exec{});
         EXPECT_TRUE(same_octree(ours.tree, oracle::BottomUpStack(maps, ours.shape).tree)) << a;
