@@ -17,35 +17,29 @@
 namespace obscura {
 namespace {
 
-using Quadtree = SquareBuilder::Quadtree;
-using Part = SquareBuilder::Part;
-
 /// The upper squares, level by level, until there are enough to keep every thread busy: a fixed number, so
 /// that nothing depends on the threads.
+template <class Tree>
 class Forest {
   public:
+    using Part = typename Tree::Part;
+
     Forest(const FacetSet& set, const BuildParams& params, const Exec& exec, const std::atomic<bool>* cancel)
         : set_(set), params_(params), exec_(exec), cancel_(cancel) {
         budget_.most = params.max_nodes;
     }
 
-    MultiresTree build(int levels) {
+    /// Appends the tree's nodes to `all`; returns its root.
+    Part build(int levels, Tree& all) {
         plant(levels);
         while (divide_lowest()) {
         }
         grow();
-        MultiresTree tree;
-        tree.levels = levels;
-        Quadtree all;
         std::size_t count = 4 * nodes_.size();
         for (const Node& node : nodes_)
             count += node.below ? node.below->nodes.size() : 0;
         all.nodes.reserve(count);
-        const Part root = harvest(0, all);
-        tree.root = {stored_depth(root.interval), root.kinds, root.first_child};
-        tree.root_interval = root.interval;
-        tree.nodes = std::move(all.nodes);
-        return tree;
+        return harvest(0, all);
     }
 
     BuildStats stats;
@@ -56,9 +50,9 @@ class Forest {
         Site site;
         std::vector<Listed> list;
         float deepest = 2.0f;
-        std::optional<Part> part;         ///< decided, without nodes of its own
-        std::size_t first_child = 0;      ///< index of the first of four, 0: none
-        std::unique_ptr<Quadtree> below;  ///< what a worker made of it; its root is `part`
+        std::optional<Part> part;     ///< decided, without nodes of its own
+        std::size_t first_child = 0;  ///< index of the first of four, 0: none
+        std::unique_ptr<Tree> below;  ///< what a worker made of it; its root is `part`
         std::vector<BuildSquare> trace;
     };
 
@@ -71,8 +65,8 @@ class Forest {
                 worker_ = std::move(f.idle_.back());
                 f.idle_.pop_back();
             } else {
-                worker_ =
-                    std::make_unique<SquareBuilder>(f.set_, f.params_, f.exec_.isa, f.budget_, f.cancel_);
+                worker_ = std::make_unique<SquareBuilder<Tree>>(f.set_, f.params_, f.exec_.isa, f.budget_,
+                                                                f.cancel_);
             }
         }
         ~Lease() {
@@ -81,11 +75,11 @@ class Forest {
             worker_->stats = {};
             forest_.idle_.push_back(std::move(worker_));
         }
-        SquareBuilder* operator->() { return worker_.get(); }
+        SquareBuilder<Tree>* operator->() { return worker_.get(); }
 
       private:
         Forest& forest_;
-        std::unique_ptr<SquareBuilder> worker_;
+        std::unique_ptr<SquareBuilder<Tree>> worker_;
     };
 
     bool cancelled() const { return cancel_ != nullptr && cancel_->load(std::memory_order_relaxed); }
@@ -157,7 +151,7 @@ class Forest {
             node.part = worker->build(node.site, node.list);
             node.list = {};
             // As large as it must be: workers keep their room for the next square.
-            node.below = std::make_unique<Quadtree>();
+            node.below = std::make_unique<Tree>();
             node.below->nodes.assign(worker->tree.nodes.begin(), worker->tree.nodes.end());
             worker->tree.nodes.clear();
             node.trace = std::exchange(worker->trace, {});
@@ -165,7 +159,7 @@ class Forest {
     }
 
     /// Joins what has grown, in the order of the recursion, and gives the parts' memory back.
-    Part harvest(std::size_t i, Quadtree& all) {
+    Part harvest(std::size_t i, Tree& all) {
         if (params_.trace != nullptr) {
             params_.trace->insert(params_.trace->end(), nodes_[i].trace.begin(), nodes_[i].trace.end());
         }
@@ -181,7 +175,7 @@ class Forest {
             }
             return part;
         }
-        Part part = nodes_[i].part.value_or(Quadtree::texel(any_depth));
+        Part part = nodes_[i].part.value_or(Tree::texel(any_depth));
         if (nodes_[i].below) {
             part.first_child += all.append(*nodes_[i].below);
             nodes_[i].below.reset();
@@ -198,13 +192,13 @@ class Forest {
     std::size_t lowest_ = 0;            ///< where the lowest level begins
     NodeBudget budget_;
     std::mutex mutex_;
-    std::vector<std::unique_ptr<SquareBuilder>> idle_;
+    std::vector<std::unique_ptr<SquareBuilder<Tree>>> idle_;
 };
 
-}  // namespace
-
-MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
-                               const Exec& exec, BuildStats* stats, const std::atomic<bool>* cancel) {
+/// Sets the triangles up and builds: what both kinds of tree share.
+template <class Tree>
+typename Tree::Part build(const Mesh& mesh, const LightView& view, const BuildParams& params,
+                          const Exec& exec, BuildStats* stats, const std::atomic<bool>* cancel, Tree& all) {
     CHECK(std::has_single_bit(static_cast<unsigned>(params.tuning.block_side)) &&
           params.tuning.block_side <= block_side);
     CHECK(view.width == view.height && std::has_single_bit(static_cast<unsigned>(view.width)) &&
@@ -218,14 +212,40 @@ MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const Bu
     const FacetSet set = facets_of(mesh, view, params.only_casters, exec);
     const double setup_s = setup.seconds();
     const Stopwatch building;
-    Forest forest(set, params, exec, cancel);
-    MultiresTree tree = forest.build(std::countr_zero(static_cast<unsigned>(view.width)));
+    Forest<Tree> forest(set, params, exec, cancel);
+    const typename Tree::Part root = forest.build(std::countr_zero(static_cast<unsigned>(view.width)), all);
     if (stats != nullptr) {
         *stats = forest.stats;
         stats->facets = set.facets.size();
         stats->setup_s = setup_s;
         stats->build_s = building.seconds();
     }
+    return root;
+}
+
+}  // namespace
+
+MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
+                               const Exec& exec, BuildStats* stats, const std::atomic<bool>* cancel) {
+    MultiresBuilder<2> all;
+    const auto root = build(mesh, view, params, exec, stats, cancel, all);
+    MultiresTree tree;
+    tree.levels = std::countr_zero(static_cast<unsigned>(view.width));
+    tree.root = {stored_depth(root.interval), root.kinds, root.first_child};
+    tree.root_interval = root.interval;
+    tree.nodes = std::move(all.nodes);
+    return tree;
+}
+
+CertainTree build_certain_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
+                               const Exec& exec, BuildStats* stats, const std::atomic<bool>* cancel) {
+    CHECK(params.needed == nullptr, "trees of certain squares are whole");
+    CertainBuilder all;
+    const auto root = build(mesh, view, params, exec, stats, cancel, all);
+    CertainTree tree;
+    tree.levels = std::countr_zero(static_cast<unsigned>(view.width));
+    tree.root = root.square();
+    tree.groups = std::move(all.nodes);
     return tree;
 }
 

@@ -9,6 +9,7 @@
 #include "core/isa.h"
 #include "core/mesh.h"
 #include "core/types.h"
+#include "hierarchy/certain_tree.h"
 #include "hierarchy/multires.h"
 #include "hierarchy/needed_nodes.h"
 #include "raster/intervals.h"
@@ -38,6 +39,9 @@ struct BuildParams {
     /// Stop with LimitError when the tree gets more nodes than this. Open sheets under any receivers have a
     /// node for every few texels, and no estimate beforehand can tell.
     std::uint64_t max_nodes = UINT64_MAX;
+    /// Trees of certain squares: detail below what is certain ends at squares of 2^detail_height texels a
+    /// side.
+    int detail_height = 0;
     bool mesh_certificate = true;  ///< false: only single planes decide squares, to see what the rest gains
     BuildTuning tuning;
     std::vector<BuildSquare>* trace = nullptr;  ///< receives every square that was visited, parents first
@@ -70,6 +74,12 @@ struct BuildStats {
 /// equal bit for bit to build_bottom_up() over interval_map(), for any exec. Memory follows the tree, not the
 /// map. When `cancel` is set meanwhile, the result has no meaning.
 MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
+                               const Exec& exec, BuildStats* stats = nullptr,
+                               const std::atomic<bool>* cancel = nullptr);
+
+/// The same construction without the choice of depths: multires_of() of the result is build_shadow_tree()'s.
+/// `params.needed` must be null; `params.max_nodes` counts groups of four squares.
+CertainTree build_certain_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
                                const Exec& exec, BuildStats* stats = nullptr,
                                const std::atomic<bool>* cancel = nullptr);
 

@@ -35,6 +35,7 @@ Verdict Judge::judge(const Square& square, std::vector<Listed>& list, std::size_
 
     Verdict verdict;
     verdict.common = common(found, square, own);
+    verdict.uniform = verdict.common && is_uniform(found);
     verdict.by_mesh = verdict.common && found.kind != Course::nothing && takes_meshes(found);
     verdict.deepest = found.kind == Course::uncertain ? exit_bound() : found.deepest;
     list.erase(std::remove_if(list.begin() + static_cast<std::ptrdiff_t>(begin), list.end(),
@@ -49,6 +50,15 @@ bool Judge::takes_meshes(const Course& c) const {
     return std::any_of(layers_.begin() + static_cast<std::ptrdiff_t>(c.next_begin),
                        layers_.begin() + static_cast<std::ptrdiff_t>(c.next_end),
                        [](const Layer& l) { return l.plane == nullptr; });
+}
+
+/// Whether all that decides an interval, where common() is not empty, has the same depth everywhere.
+bool Judge::is_uniform(const Course& c) const {
+    const auto level = [](const Layer& l) { return l.low == l.high; };
+    if (c.kind == Course::nothing || c.kind == Course::point) return true;
+    if (c.kind == Course::solid) return level(c.first) && level(c.last);
+    return level(c.first) && std::all_of(layers_.begin() + static_cast<std::ptrdiff_t>(c.next_begin),
+                                         layers_.begin() + static_cast<std::ptrdiff_t>(c.next_end), level);
 }
 
 /// Joins facets that share an edge within the square. What is left is torn where an edge has nothing beyond

@@ -21,6 +21,7 @@ namespace obscura {
 /// What a look at a list says.
 struct Verdict {
     std::optional<DepthInterval> common;  ///< K, when it is certain and not empty
+    bool uniform = false;                 ///< it is certain that every texel's interval is K
     bool by_mesh = false;                 ///< a surface of several planes had a part in it
     float deepest = 2.0f;  ///< what begins beyond this depth has no part in any texel's interval
 };
@@ -73,6 +74,7 @@ class Judge {
     Course up_to_next(const Square& square);
     Course counted(const Square& square);
     bool takes_meshes(const Course& course) const;
+    bool is_uniform(const Course& course) const;
     bool put_in_order(std::span<Layer> cluster, const Square& square) const;
     bool certainly_before(const Layer& p, const Layer& q, const Square& square, bool or_equal) const;
     float exit_bound() const;

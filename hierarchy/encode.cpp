@@ -29,19 +29,19 @@ constexpr std::size_t slack_bytes = 3;
 /// Writes groups, left to right, at the places that the plan gives them.
 class Emitter {
   public:
-    Emitter(const MultiresTree& tree, const LayoutPlan& plan, std::uint8_t* bits)
-        : tree_(tree), plan_(plan), units_(units_of_kinds(plan.layout)), bits_(bits) {}
+    Emitter(const MultiresTree& tree, TreeLayout layout, const LayoutPlan& plan, std::uint8_t* bits)
+        : tree_(tree), layout_(layout), plan_(plan), units_(units_of_kinds(layout)), bits_(bits) {}
 
     void run() {
         // The parent that stands above the root: a group of one full node, at unit 0.
         group(&tree_.root, static_cast<std::uint32_t>(ChildKind::full), tree_.levels, 0);
-        std::memset(bits_ + byte_of_unit(plan_.layout, plan_.units), 0, slack_bytes);
+        std::memset(bits_ + byte_of_unit(layout_, plan_.units), 0, slack_bytes);
     }
 
   private:
     /// Siblings of this height at unit `at`, and all below them.
     void group(const MultiresNode* siblings, std::uint32_t kinds, int height, std::uint64_t at) {
-        const Family family = family_of(units_, kinds, plan_.blocks[height].data() + next_[height]);
+        const Family family = family_of<4>(units_, kinds, plan_.blocks[height].data() + next_[height]);
         next_[height] += static_cast<std::size_t>(family.inner);
         const Placement placement = place(family, plan_.scale[height]);
 
@@ -68,9 +68,9 @@ class Emitter {
 
     void write(std::uint64_t unit, std::uint32_t kind, const MultiresNode& node, std::uint64_t distance,
                int height) {
-        std::uint8_t* out = bits_ + byte_of_unit(plan_.layout, unit);
+        std::uint8_t* out = bits_ + byte_of_unit(layout_, unit);
         if (kind != static_cast<std::uint32_t>(ChildKind::leaf)) {
-            const std::size_t size = byte_of_unit(plan_.layout, header_units(plan_.layout));
+            const std::size_t size = byte_of_unit(layout_, header_units(layout_));
             const std::uint32_t scale = plan_.scale[height];
             const std::uint64_t offset = scale == 1 ? distance : distance / scale;
             const std::uint32_t header = node.kinds | static_cast<std::uint32_t>(offset) << 8;
@@ -84,11 +84,12 @@ class Emitter {
 
     void clear(std::uint64_t from, std::uint64_t to) {
         if (from == to) return;
-        const std::size_t first = byte_of_unit(plan_.layout, from);
-        std::memset(bits_ + first, 0, byte_of_unit(plan_.layout, to) - first);
+        const std::size_t first = byte_of_unit(layout_, from);
+        std::memset(bits_ + first, 0, byte_of_unit(layout_, to) - first);
     }
 
     const MultiresTree& tree_;
+    const TreeLayout layout_;
     const LayoutPlan& plan_;
     const KindUnits units_;
     std::uint8_t* bits_;
@@ -96,10 +97,10 @@ class Emitter {
 };
 
 /// The layout asked for, or the next wider one whose offsets reach at a bearable price.
-LayoutPlan choose_layout(const TreeShape& shape, const EncodeParams& params) {
+std::pair<TreeLayout, LayoutPlan> choose_layout(const TreeShape& shape, const EncodeParams& params) {
     for (TreeLayout layout = params.layout;; layout = row_of(layout).wider) {
         const int bits = params.offset_bits == 0 ? offset_bits(layout) : params.offset_bits;
-        LayoutPlan plan = plan_layout(shape, layout, (1u << bits) - 1, params.max_units);
+        LayoutPlan plan = plan_layout<4>(shape, units_of_kinds(layout), (1u << bits) - 1, params.max_units);
         const bool widest = row_of(layout).wider == layout;
         if (!plan.fits && widest) {
             throw LimitError(
@@ -109,7 +110,7 @@ LayoutPlan choose_layout(const TreeShape& shape, const EncodeParams& params) {
         }
         const double share =
             static_cast<double>(plan.padding) / static_cast<double>(plan.units - plan.padding);
-        if (plan.fits && (widest || share <= params.bearable_padding)) return plan;
+        if (plan.fits && (widest || share <= params.bearable_padding)) return {layout, std::move(plan)};
     }
 }
 
@@ -118,19 +119,19 @@ LayoutPlan choose_layout(const TreeShape& shape, const EncodeParams& params) {
 ShadowTree encode_tree(const MultiresTree& tree, const LightView& view, const EncodeParams& params) {
     CHECK(params.offset_bits == 0 ||
           (params.offset_bits >= min_offset_bits && params.offset_bits <= offset_bits(params.layout)));
-    const TreeShape shape = shape_of(tree);
-    const LayoutPlan plan = choose_layout(shape, params);
+    const TreeShape shape = shape_of<4>(tree);
+    const auto [layout, plan] = choose_layout(shape, params);
 
     ShadowTree result;
     result.view = view;
     result.counts = shape.counts;
-    result.bytes = byte_of_unit(plan.layout, plan.units);
-    result.padding_bytes = byte_of_unit(plan.layout, plan.padding);
+    result.bytes = byte_of_unit(layout, plan.units);
+    result.padding_bytes = byte_of_unit(layout, plan.padding);
     auto bits = std::make_shared<Buffer<std::uint8_t>>(static_cast<std::size_t>(result.bytes) + slack_bytes);
-    Emitter(tree, plan, bits->data()).run();
+    Emitter(tree, layout, plan, bits->data()).run();
 
     result.code.units = bits->data();
-    result.code.layout = plan.layout;
+    result.code.layout = layout;
     result.code.levels = tree.levels;
     for (int height = 0; height <= tree.levels; ++height)
         result.code.offset_scale[height] = plan.scale[height];

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "hierarchy/multires.h"
@@ -21,19 +22,28 @@
 
 namespace obscura {
 
-/// The kinds of a quadtree, without values. kinds[h] has one byte for each inner node of height h, left to
-/// right, so that the inner children of consecutive nodes are consecutive one height below. The root counts
-/// as an inner node, and above it stands a parent whose one child it is.
-struct TreeShape {
+/// The kinds of a node's four or eight children, two bits each.
+template <int children>
+using KindWord = std::conditional_t<children == 4, std::uint8_t, std::uint16_t>;
+
+/// The kinds of a tree, without values. kinds[h] has one word for each inner node of height h, left to right,
+/// so that the inner children of consecutive nodes are consecutive one height below. The root counts as an
+/// inner node, and above it stands a parent whose one child it is.
+template <int children>
+struct TreeShapeOf {
     int levels = 0;
-    std::vector<std::uint8_t> kinds[max_tree_levels + 2];
+    std::vector<KindWord<children>> kinds[max_tree_levels + 2];
     MultiresCounts counts;  ///< as count_nodes()
 };
+using TreeShape = TreeShapeOf<4>;
 
-TreeShape shape_of(const MultiresTree& tree);
+/// `tree` has as many children to a node.
+template <int children>
+TreeShapeOf<children> shape_of(const MultiresTree& tree);
 
 /// The children of one node, seen from their group: those with blocks of their own, smallest block first.
-struct Family {
+template <int children>
+struct FamilyOf {
     struct Member {
         int child = 0;
         std::uint32_t unit = 0;   ///< of the child, in the group
@@ -42,20 +52,23 @@ struct Family {
     std::uint32_t group_units = 0;
     int inner = 0;  ///< children that are inner nodes, with blocks or without
     int count = 0;
-    Member member[4];
+    Member member[children];
 };
+using Family = FamilyOf<4>;
 
 /// `blocks`: units of the blocks of the inner children, in child order.
-Family family_of(const KindUnits& units, std::uint32_t kinds, const std::uint32_t* blocks);
+template <int children>
+FamilyOf<children> family_of(const KindUnits& units, std::uint32_t kinds, const std::uint32_t* blocks);
 
 /// Where the blocks of a family begin, in units from the group's first.
 struct Placement {
-    std::uint64_t start[4] = {};  ///< by place in Family::member
+    std::uint64_t start[8] = {};  ///< by place in FamilyOf::member
     std::uint64_t end = 0;        ///< behind the last block: units of the parent's block
     std::uint64_t reach = 0;      ///< longest distance from a child to its block
 };
 
-Placement place(const Family& family, std::uint32_t scale);
+template <int children>
+Placement place(const FamilyOf<children>& family, std::uint32_t scale);
 
 /// How far offsets go and what they cost at one height.
 struct ScaleChoice {
@@ -66,11 +79,11 @@ struct ScaleChoice {
 /// The scale of the children's height that wastes fewest units, the smallest of several, among all with which
 /// every offset is at most `max_offset` (>= 15): found exhaustively. `parents` are kinds of nodes, `blocks`
 /// the units of their inner children's blocks.
-ScaleChoice best_scale(TreeLayout layout, std::span<const std::uint8_t> parents,
+template <int children>
+ScaleChoice best_scale(const KindUnits& units, std::span<const KindWord<children>> parents,
                        std::span<const std::uint32_t> blocks, std::uint32_t max_offset);
 
 struct LayoutPlan {
-    TreeLayout layout = TreeLayout::words24;
     std::uint32_t scale[max_tree_levels + 1] = {};
     std::vector<std::uint32_t> blocks[max_tree_levels + 2];  ///< units, for each byte of TreeShape::kinds
     std::uint64_t units = 0;                                 ///< of the tree, padding included
@@ -78,8 +91,10 @@ struct LayoutPlan {
     bool fits = true;  ///< units are at most max_units; else the rest has no meaning
 };
 
-/// O(inner nodes) time and memory, apart from the search at heights whose blocks offsets cannot span.
-LayoutPlan plan_layout(const TreeShape& shape, TreeLayout layout, std::uint32_t max_offset,
+/// O(inner nodes) time and memory, apart from the search at heights whose blocks offsets cannot span. For 4
+/// and 8 children, like everything here.
+template <int children>
+LayoutPlan plan_layout(const TreeShapeOf<children>& shape, const KindUnits& units, std::uint32_t max_offset,
                        std::uint64_t max_units = max_tree_units);
 
 }  // namespace obscura

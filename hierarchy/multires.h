@@ -68,6 +68,7 @@ template <int dimensions>
 class MultiresBuilder {
   public:
     static constexpr int children = 1 << dimensions;
+    static constexpr bool keeps_detail = false;  ///< nothing below squares that have a depth in common
 
     /// A finished part of the tree: its interval and its root, whose value is set by the parent.
     struct Part {

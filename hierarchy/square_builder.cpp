@@ -42,8 +42,9 @@ bool Site::value_only() const {
            NeededNodes::asks_for_value_only(needed, morton, height);
 }
 
-SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa, NodeBudget& budget,
-                             const std::atomic<bool>* cancel)
+template <class Tree>
+SquareBuilder<Tree>::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa,
+                                   NodeBudget& budget, const std::atomic<bool>* cancel)
     : set_(set),
       params_(params),
       isa_(isa),
@@ -51,20 +52,25 @@ SquareBuilder::SquareBuilder(const FacetSet& set, const BuildParams& params, Isa
       cancel_(cancel),
       judge_(set, params.receivers, params.mesh_certificate ? params.tuning.longest_surface : 0) {}
 
-std::optional<SquareBuilder::Part> SquareBuilder::decide(const Site& site, std::vector<Listed>& list,
-                                                         std::size_t begin, float& deepest) {
+template <class Tree>
+auto SquareBuilder<Tree>::decide(const Site& site, std::vector<Listed>& list, std::size_t begin,
+                                 float& deepest) -> std::optional<Part> {
     ++stats.nodes_visited;
+    certain_ = false;
     if (site.not_needed()) return done(site, BuildSquare::not_needed, any_depth);
     if (list.size() == begin) return done(site, BuildSquare::nothing, DepthInterval{});
     const Verdict verdict = judge_.judge(site.square, list, begin);
     deepest = std::min(deepest, verdict.deepest);
     if (!verdict.common) return {};
+    certain_ = detail_wanted(site) && !verdict.uniform;
+    if (certain_) return {};
     ++(verdict.by_mesh ? stats.certified_mesh : stats.certified_cover);
     return done(site, verdict.by_mesh ? BuildSquare::mesh : BuildSquare::cover, *verdict.common);
 }
 
-void SquareBuilder::hand_down(const std::vector<Listed>& list, std::size_t begin, std::size_t end,
-                              float deepest, const Square& square, std::vector<Listed>& to) {
+template <class Tree>
+void SquareBuilder<Tree>::hand_down(const std::vector<Listed>& list, std::size_t begin, std::size_t end,
+                                    float deepest, const Square& square, std::vector<Listed>& to) {
     for (std::size_t i = begin; i < end; ++i) {
         const Listed l = list[i];  // a copy: `to` may be the same vector
         if (l.low > deepest) continue;
@@ -74,7 +80,8 @@ void SquareBuilder::hand_down(const std::vector<Listed>& list, std::size_t begin
     }
 }
 
-SquareBuilder::Part SquareBuilder::build(const Site& site, const std::vector<Listed>& list) {
+template <class Tree>
+auto SquareBuilder<Tree>::build(const Site& site, const std::vector<Listed>& list) -> Part {
     list_.assign(list.begin(), list.end());
     accounted_ = tree.nodes.size();
     const Part part = visit(site, 0);
@@ -84,29 +91,34 @@ SquareBuilder::Part SquareBuilder::build(const Site& site, const std::vector<Lis
 
 /// Tells the budget of nodes made since last time, if they are more than `step`. Nodes that were made and
 /// dropped again, below a square of which only the value is wanted, stay accounted while the square lasts.
-void SquareBuilder::account(std::size_t step) {
+template <class Tree>
+void SquareBuilder<Tree>::account(std::size_t step) {
     if (tree.nodes.size() <= accounted_ + step) return;
     budget_.take(tree.nodes.size() - accounted_);
     accounted_ = tree.nodes.size();
 }
 
-SquareBuilder::Part SquareBuilder::done(const Site& site, BuildSquare::Fate fate, DepthInterval interval) {
+template <class Tree>
+auto SquareBuilder<Tree>::done(const Site& site, BuildSquare::Fate fate, DepthInterval interval) -> Part {
     note(site, fate);
-    return Quadtree::texel(interval);
+    return Tree::texel(interval);
 }
 
-void SquareBuilder::note(const Site& site, BuildSquare::Fate fate) {
+template <class Tree>
+void SquareBuilder<Tree>::note(const Site& site, BuildSquare::Fate fate) {
     if (params_.trace != nullptr) trace.push_back({fate, site.square.x0, site.square.y0, site.square.side});
 }
 
 /// The square's list is list_ from `begin` to its end.
-SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
-    if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) return Quadtree::texel(any_depth);
+template <class Tree>
+auto SquareBuilder<Tree>::visit(const Site& site, std::size_t begin) -> Part {
+    if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) return Tree::texel(any_depth);
     float deepest = 2.0f;
     if (const std::optional<Part> part = decide(site, list_, begin, deepest)) return *part;
     const std::size_t end = list_.size(), mark = tree.nodes.size();
     Part part;
-    if (dense(site.square.side, end - begin, params_.tuning)) {
+    if (dense(site.square.side, end - begin, params_.tuning) ||
+        (certain_ && site.square.side <= params_.tuning.tile_side)) {
         part = rasterize_tile(site, begin);
     } else if (site.square.side <= params_.tuning.block_side) {
         part = rasterize_block(site, begin);
@@ -119,7 +131,7 @@ SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
             child[i] = visit(quadrant, end);
             list_.resize(end);
         }
-        part = tree.join(child);
+        part = settled(tree.join(child), site.height, mark);
         constexpr std::size_t step = 4096;
         account(step);
     }
@@ -130,7 +142,8 @@ SquareBuilder::Part SquareBuilder::visit(const Site& site, std::size_t begin) {
     return part;
 }
 
-void SquareBuilder::list_records(const Site& site, std::size_t begin) {
+template <class Tree>
+void SquareBuilder<Tree>::list_records(const Site& site, std::size_t begin) {
     note(site, BuildSquare::rasterized);
     const auto side = static_cast<std::uint64_t>(site.square.side);
     stats.texels_rasterized += side * side;
@@ -139,47 +152,71 @@ void SquareBuilder::list_records(const Site& site, std::size_t begin) {
         records_.push_back(set_.facets[list_[i].facet].record);
 }
 
-SquareBuilder::Part SquareBuilder::rasterize_block(const Site& site, std::size_t begin) {
+template <class Tree>
+auto SquareBuilder<Tree>::rasterize_block(const Site& site, std::size_t begin) -> Part {
     list_records(site, begin);
     const Square& s = site.square;
     alignas(64) float entry[block_texels], exit[block_texels];
     OBSCURA_DISPATCH(isa_, block_intervals, set_.setup.records.data(), records_.data(), records_.size(), s.x0,
                      s.y0, params_.receivers == Receivers::static_only, entry, exit);
-    return reduce(entry, exit, s.side * s.side);
+    return reduce(entry, exit, site.height);
 }
 
-/// The bottom-up construction over `count` texels in Morton order.
-SquareBuilder::Part SquareBuilder::reduce(const float* entry, const float* exit, int count) {
+/// Of a square of which no detail is wanted, nothing is kept but its common depths, if it has any.
+template <class Tree>
+auto SquareBuilder<Tree>::settled(Part part, int height, std::size_t mark) -> Part {
+    if constexpr (Tree::keeps_detail) {
+        if (part.kinds == 0 || height > params_.detail_height || !has_depth(part.interval)) return part;
+        tree.nodes.resize(mark);
+        return Tree::texel(part.interval);
+    }
+    return part;
+}
+
+/// The bottom-up construction over 4^height texels in Morton order.
+template <class Tree>
+auto SquareBuilder<Tree>::reduce(const float* entry, const float* exit, int height) -> Part {
+    const int count = 1 << (2 * height);
     float low = entry[0], high = exit[0];
+    bool uniform = true;
     for (int i = 1; i < count; ++i) {
+        uniform = uniform && entry[i] == entry[0] && exit[i] == exit[0];
         low = std::max(low, entry[i]);
         high = std::min(high, exit[i]);
     }
-    if (low <= high) return Quadtree::texel({low, high});
+    const bool detail = Tree::keeps_detail && height > params_.detail_height;
+    if (low <= high && (uniform || !detail)) return Tree::texel({low, high});
     const int quarter = count / 4;
     Part child[4];
     for (int i = 0; i < 4; ++i)
-        child[i] = reduce(entry + i * quarter, exit + i * quarter, quarter);
+        child[i] = reduce(entry + i * quarter, exit + i * quarter, height - 1);
     return tree.join(child);
 }
 
-SquareBuilder::Part SquareBuilder::rasterize_tile(const Site& site, std::size_t begin) {
+template <class Tree>
+auto SquareBuilder<Tree>::rasterize_tile(const Site& site, std::size_t begin) -> Part {
     list_records(site, begin);
     const Square& s = site.square;
     const TileRect rect{s.x0, s.y0, std::max(s.side, 16), s.side};
     intervals_.resize(layer_tile_texels);
     tiler_.run(set_.setup, records_, rect, params_.receivers, isa_, intervals_.data());
-    return reduce_rows(intervals_.data(), rect.width, s.side);
+    return reduce_rows(intervals_.data(), rect.width, site.height);
 }
 
-/// The bottom-up construction over rows of `stride` texels.
-SquareBuilder::Part SquareBuilder::reduce_rows(const DepthInterval* rows, int stride, int side) {
-    if (side == 1) return Quadtree::texel(rows[0]);
-    const int half = side / 2;
-    const Part child[4] = {reduce_rows(rows, stride, half), reduce_rows(rows + half, stride, half),
-                           reduce_rows(rows + half * stride, stride, half),
-                           reduce_rows(rows + half * stride + half, stride, half)};
-    return tree.join(child);
+/// The bottom-up construction over 2^height rows of `stride` texels.
+template <class Tree>
+auto SquareBuilder<Tree>::reduce_rows(const DepthInterval* rows, int stride, int height) -> Part {
+    if (height == 0) return Tree::texel(rows[0]);
+    const int half = 1 << (height - 1);
+    const std::size_t mark = tree.nodes.size();
+    const Part child[4] = {reduce_rows(rows, stride, height - 1),
+                           reduce_rows(rows + half, stride, height - 1),
+                           reduce_rows(rows + half * stride, stride, height - 1),
+                           reduce_rows(rows + half * stride + half, stride, height - 1)};
+    return settled(tree.join(child), height, mark);
 }
+
+template class SquareBuilder<MultiresBuilder<2>>;
+template class SquareBuilder<CertainBuilder>;
 
 }  // namespace obscura

@@ -11,6 +11,7 @@
 #include "core/isa.h"
 #include "hierarchy/block.h"
 #include "hierarchy/build.h"
+#include "hierarchy/certain_tree.h"
 #include "hierarchy/certificate.h"
 #include "hierarchy/facets.h"
 #include "hierarchy/multires.h"
@@ -45,11 +46,11 @@ struct NodeBudget {
 };
 
 /// Builds the part of the tree below one square, depth first. One per thread: it keeps working memory as
-/// large as the scene.
+/// large as the scene. Tree: MultiresBuilder<2> for depths, CertainBuilder for what depths are chosen from.
+template <class Tree>
 class SquareBuilder {
   public:
-    using Quadtree = MultiresBuilder<2>;
-    using Part = Quadtree::Part;
+    using Part = typename Tree::Part;
 
     /// `set`, `params` and `cancel` (null: never) must outlive it.
     SquareBuilder(const FacetSet& set, const BuildParams& params, Isa isa, NodeBudget& budget,
@@ -70,26 +71,32 @@ class SquareBuilder {
     /// soon, when `cancel` is set meanwhile.
     Part build(const Site& site, const std::vector<Listed>& list);
 
-    Quadtree tree;
+    Tree tree;
     BuildStats stats;                ///< exact counts of all that was done so far
     std::vector<BuildSquare> trace;  ///< squares visited, where params.trace asks for them
 
     void note(const Site& site, BuildSquare::Fate fate);
 
   private:
+    bool detail_wanted(const Site& site) const {
+        return Tree::keeps_detail && site.height > params_.detail_height;
+    }
+    Part settled(Part part, int height, std::size_t mark);
     Part done(const Site& site, BuildSquare::Fate fate, DepthInterval interval);
     Part visit(const Site& site, std::size_t begin);
     void account(std::size_t step);
     void list_records(const Site& site, std::size_t begin);
     Part rasterize_block(const Site& site, std::size_t begin);
     Part rasterize_tile(const Site& site, std::size_t begin);
-    Part reduce(const float* entry, const float* exit, int count);
-    Part reduce_rows(const DepthInterval* rows, int stride, int side);
+    Part reduce(const float* entry, const float* exit, int height);
+    Part reduce_rows(const DepthInterval* rows, int stride, int height);
 
     const FacetSet& set_;
     const BuildParams& params_;
     Isa isa_;
     NodeBudget& budget_;
+    bool certain_ =
+        false;  ///< of the square decided last: its common depths are certain, its detail is wanted
     std::size_t accounted_ = 0;  ///< of the tree's nodes, those that the budget knows
     const std::atomic<bool>* cancel_;
     Judge judge_;
@@ -98,5 +105,8 @@ class SquareBuilder {
     std::vector<std::uint32_t> records_;
     std::vector<DepthInterval> intervals_;
 };
+
+extern template class SquareBuilder<MultiresBuilder<2>>;
+extern template class SquareBuilder<CertainBuilder>;
 
 }  // namespace obscura

@@ -7,6 +7,7 @@
 #include "bench/harness/report.h"
 #include "bench/shadows/exact_bench.h"
 #include "bench/shadows/report.h"
+#include "bench/shadows/stack_bench.h"
 #include "bench/shadows/sweep_scenes.h"
 #ifdef OBSCURA_HAS_EMBREE
 #include "bench/shadows/wrong_sweep.h"
@@ -76,10 +77,14 @@ std::string left_out(const ShadowBenchPlan& plan, const std::string& scene, int 
 }
 
 int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& peers) {
-    // A report of its own, and scenes of its own.
+    // Reports of their own.
     if (options.part == "exact") {
         make_output_folder(options);
         return bench_exact(options);
+    }
+    if (options.part == "stack") {
+        make_output_folder(options);
+        return bench_stack(options);
     }
     const auto wants = [&](const char* part) { return options.part.empty() || options.part == part; };
     const ShadowBenchPlan plan = shadow_bench_plan(options.quick);

@@ -194,7 +194,7 @@ std::uint64_t padding_with(TreeLayout layout, const std::vector<std::uint8_t>& p
     std::uint64_t padding = 0;
     const std::uint32_t* next = blocks.data();
     for (const std::uint8_t kinds : parents) {
-        const Family family = family_of(units_of_kinds(layout), kinds, next);
+        const Family family = family_of<4>(units_of_kinds(layout), kinds, next);
         const Placement placed = place(family, scale);
         std::uint64_t used = family.group_units;
         for (int i = 0; i < family.inner; ++i)
@@ -219,7 +219,7 @@ TEST(LayoutPlan, TheScaleIsTheBestOfAll) {
             }
         }
         const std::uint32_t max_offset = 15 + below(17);
-        const ScaleChoice choice = best_scale(layout, parents, blocks, max_offset);
+        const ScaleChoice choice = best_scale<4>(units_of_kinds(layout), parents, blocks, max_offset);
         std::uint64_t best = ~std::uint64_t{0};
         std::uint32_t best_scale_by_hand = 0;
         // Beyond the longest distance every further step only adds padding.
@@ -238,7 +238,7 @@ TEST(LayoutPlan, TheScaleIsTheBestOfAll) {
 TEST(LayoutPlan, SmallBlocksComeFirst) {
     // Distances are then at most the three lesser blocks, not the three first.
     const std::uint32_t blocks[] = {5000, 7, 100, 7};
-    const Family family = family_of(units_of_kinds(TreeLayout::words24), 0b11'10'11'10, blocks);
+    const Family family = family_of<4>(units_of_kinds(TreeLayout::words24), 0b11'10'11'10, blocks);
     EXPECT_EQ(family.group_units, 6u);
     EXPECT_EQ(family.inner, 4);
     const Placement placed = place(family, 1);
@@ -253,11 +253,11 @@ TEST(LayoutPlan, ReachesBeyondFourGibibytes) {
     // Four blocks of 2 GB of words each: the tree ends where lookups end.
     const std::vector<std::uint8_t> parents{0xff};
     const std::vector<std::uint32_t> blocks(4, 500'000'000);
-    const ScaleChoice choice = best_scale(TreeLayout::words16, parents, blocks, 0xffff);
+    const ScaleChoice choice = best_scale<4>(units_of_kinds(TreeLayout::words16), parents, blocks, 0xffff);
     EXPECT_GE(choice.scale, 1'500'000'000u / 0xffff);
     EXPECT_LT(choice.padding, 4u * choice.scale);
     const Placement placed =
-        place(family_of(units_of_kinds(TreeLayout::words16), 0xff, blocks.data()), choice.scale);
+        place(family_of<4>(units_of_kinds(TreeLayout::words16), 0xff, blocks.data()), choice.scale);
     EXPECT_GT(byte_of_unit(TreeLayout::words16, placed.start[3]), std::size_t{5'999'999'999u});
     EXPECT_LE(placed.end, max_tree_units);
 }
@@ -277,12 +277,12 @@ TreeShape full_shape(int levels) {
 TEST(LayoutPlan, CountsUnitsOfAFullTree) {
     const TreeShape shape = full_shape(11);
     // 4^11 leaves and as many half as many units above them.
-    const LayoutPlan words = plan_layout(shape, TreeLayout::words24, 0xffffff);
+    const LayoutPlan words = plan_layout<4>(shape, units_of_kinds(TreeLayout::words24), 0xffffff);
     EXPECT_TRUE(words.fits);
     EXPECT_EQ(words.padding, 0u);
     EXPECT_EQ(words.units, (1u << 22) + 2 * ((1u << 22) - 1) / 3);
-    EXPECT_TRUE(plan_layout(shape, TreeLayout::words24, 0xffffff, words.units).fits);
-    EXPECT_FALSE(plan_layout(shape, TreeLayout::words24, 0xffffff, words.units - 1).fits);
+    EXPECT_TRUE(plan_layout<4>(shape, units_of_kinds(TreeLayout::words24), 0xffffff, words.units).fits);
+    EXPECT_FALSE(plan_layout<4>(shape, units_of_kinds(TreeLayout::words24), 0xffffff, words.units - 1).fits);
 }
 
 TEST(TreeEncode, RefusesWhatNoLayoutCanName) {

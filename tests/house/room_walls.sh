@@ -14,6 +14,7 @@ scenes           core
 raster           core
 raster/exact     raster
 hierarchy        raster
+hierarchy/stack  hierarchy
 filters          hierarchy
 optics/field     core
 optics/thesis    optics/field
@@ -31,7 +32,7 @@ lessons          optics stereo stereo/thesis scenes raster/exact lessons/drawing
 bench/embree     core
 bench/harness    app/scene
 bench/raster     app/frame bench/harness bench/embree
-bench/shadows    app/frame bench/harness bench/embree
+bench/shadows    app/frame hierarchy/stack bench/harness bench/embree
 bench/diffraction bench/harness
 bench/stereo     bench/harness
 bench            bench/raster bench/shadows bench/diffraction bench/stereo
