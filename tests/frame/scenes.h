@@ -27,7 +27,8 @@ inline Scene empty_scene(int width, int height, int samples = 1) {
     scene.materials.resize(1);
     scene.materials[0].base_color = {1, 1, 1};
     scene.materials[0].roughness = 1.0f;
-    scene.sky = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, 0.0f, true};
+    scene.sky.zenith = scene.sky.horizon = scene.sky.ground = {0, 0, 0};
+    scene.sky.ambient = 0;
     scene.render.width = width;
     scene.render.height = height;
     scene.render.samples = samples;

@@ -295,7 +295,9 @@ TEST(Shade, ThinSheetsGlowWhereLightComesFromBehind) {
 
 TEST(Shade, SkyIsSeenBehindEverythingUnlessHidden) {
     Scene scene = empty_scene(8, 8);
-    scene.sky = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, 1.0f, true};
+    scene.sky.zenith = {0, 0, 1};
+    scene.sky.horizon = {0, 1, 0};
+    scene.sky.ground = {1, 0, 0};
     scene.camera.eye = {0, 0, 0};
     scene.camera.look_at = {0, 10, -1};
     const Vec3f up = pixel(render_frame(scene), 4, 4);

@@ -58,7 +58,8 @@ const std::vector<BadScene>& bad_scenes() {
         {"UnknownSection", scene("[[lihgt]]\n"), "s.toml:3:3: unknown key 'lihgt'; did you mean 'light'?"},
         {"MissingKey", camera("eye_m = [0, 1, 5]"), "s.toml:2:1: [camera] needs 'look_at_m'"},
         {"MissingType", light(""),
-         "s.toml:3:1: [[light]] needs 'type': one of \"directional\", \"sun\", \"point\", \"spot\""},
+         "s.toml:3:1: [[light]] needs 'type': one of \"directional\", \"sun\", \"point\", \"spot\", "
+         "\"area\""},
         {"WrongType", camera("eye_m = [0, 1]"), "s.toml:3:9: 'eye_m' must be three numbers, not a list of 2"},
         {"TextForTable", "format = 1\ncamera = \"front\"",
          "s.toml:2:10: 'camera' must be a table [camera], not the string \"front\""},
@@ -93,13 +94,26 @@ const std::vector<BadScene>& bad_scenes() {
         {"KeyOfOtherKind", camera("eye_m = [0, 1, 5]\nlook_at_m = [0, 0, 0]\nheight_m = 3"),
          "s.toml:5:1: 'height_m' does not apply to [camera] with projection = \"perspective\""},
         {"UnknownChoice", light("type = \"dirctional\""),
-         "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", not "
-         "\"dirctional\"; did you mean "
+         "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", \"area\", "
+         "not \"dirctional\"; did you mean "
          "'directional'?"},
         {"UnlistedInteger", scene("[render]\nsamples = 2"),
          "s.toml:4:11: 'samples' must be one of 1, 4, 16, not 2"},
         {"IntegerWanted", scene("[render]\nsamples = 4.0"),
          "s.toml:4:11: 'samples' must be an integer, not a number"},
+        {"AreaWithoutSize",
+         light("type = \"area\"\nposition_m = [0, 3, 0]\nlook_at_m = [0, 0, 0]\nradiance_w_m2_sr = "
+               "5\nwidth_m = 0"),
+         "s.toml:9:11: 'width_m' must be in (0, 1e+07], not 0"},
+        {"AreaWithoutAWay",
+         light("type = \"area\"\nposition_m = [0, 3, 0]\nlook_at_m = [0, 3, 0]\nradiance_w_m2_sr = 5"),
+         "s.toml:7:13: 'look_at_m' is nearer to 'position_m' than 1e-06 m"},
+        {"PointsOfALight", light(directional + "angular_diameter_deg = 1\nshadow.samples = 100"),
+         "s.toml:9:18: 'samples' must be one of 1, 4, 16, 64, 256, 1024 or \"auto\", not 100"},
+        {"SkyWithoutSun", scene("[sky]\nmodel = \"clear\""),
+         "s.toml:4:9: 'model' = \"clear\" needs a light of type \"sun\" or \"directional\" to follow"},
+        {"SkyOfNoLight", light(directional + "[sky]\nmodel = \"clear\"\nsun = \"moon\""),
+         "s.toml:10:7: there is no light 'moon'"},
         {"ShadowResolution", light(directional + "shadow.resolution = 1000"),
          "s.toml:8:21: 'resolution' must be one of 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, "
          "32768, 65536, 131072, 262144, 524288, 1048576 or \"auto\", not 1000"},

@@ -91,6 +91,20 @@ TEST(ShadowMethods, WhatIsAskedForStays) {
     }
 }
 
+TEST(ShadowMethods, WhatHasASizeHasPenumbraeInLongSequences) {
+    const std::string frames = "[frames]\nrange = \"1-200\"";
+    const Planned sized = planned("angular_diameter_deg = 0.5", frames);
+    EXPECT_EQ(sized.method, "exact");
+    EXPECT_EQ(sized.reason, "the light has a size, which maps of its middle do not show");
+    // Its middle alone needs no more than a tree.
+    EXPECT_EQ(
+        planned("angular_diameter_deg = 0.5\nshadow = {samples = 1, method = \"exact\"}", frames).method,
+        "exact");
+    EXPECT_EQ(planned("angular_diameter_deg = 0", frames).method, "compressed");
+    EXPECT_EQ(planned("angular_diameter_deg = 0.5\nshadow = {resolution = 1024}", frames).method,
+              "compressed");
+}
+
 TEST(ShadowMethods, KeysThatAMethodDoesNotReadAreRefused) {
     const auto message = [](const std::string& settings) -> std::string {
         try {
@@ -107,6 +121,9 @@ TEST(ShadowMethods, KeysThatAMethodDoesNotReadAreRefused) {
     EXPECT_NE(message("method = \"exact\", scope = \"full\"").find("'scope' needs method = \"compressed\""),
               std::string::npos);
     EXPECT_EQ(message("method = \"exact\", receivers = \"any\""), "");
+    EXPECT_NE(message("method = \"map\", samples = 16").find("'samples' needs method = \"exact\""),
+              std::string::npos);
+    EXPECT_EQ(message("method = \"exact\", samples = 16"), "");
 }
 
 }  // namespace
