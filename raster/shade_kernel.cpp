@@ -220,6 +220,13 @@ void add_light(const SurfaceBlock& s, const ShadeLight& light, const float* visi
     }
 }
 
+/// Of a part of the sky that the surface faces, or lets through, in what is mirrored along r.
+OBSCURA_INLINE F32 mirror_weight(const SurfaceBlock& s, const Vec3x16& r, const Vec3x16& l, int at) {
+    const Mask asks =
+        less(splat(0.0f), dot(load3(s.gx + at, s.gy + at, s.gz + at), l)) | mask_of(s.thin[at / 16]);
+    return select(asks, eighth_power(max(dot(r, l), splat(0.0f))), splat(0.0f));
+}
+
 }  // namespace
 
 void shade_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky,
@@ -267,7 +274,7 @@ void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials
         const Vec3x16 r = n * (splat(2.0f) * nv) - v;
         F32 weights = splat(1e-6f);
         for (std::int32_t i = 0; i < count; ++i)
-            weights = weights + eighth_power(max(dot(r, splat3(parts[i].to_light)), splat(0.0f)));
+            weights = weights + mirror_weight(surface, r, splat3(parts[i].to_light), at);
         store3(shade.mirror_x + at, shade.mirror_y + at, shade.mirror_z + at, r);
         const Vec3x16 seen = mirrored(sky, m, f0, n.y, v.y, nv) * splat(sky.ambient);
         store3(shade.mirrored_r + at, shade.mirrored_g + at, shade.mirrored_b + at, seen * (one() / weights));
@@ -293,7 +300,7 @@ void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const
             out = select(mask_of(thin), out + through, out);
         }
         const Vec3x16 r = load3(shade.mirror_x + at, shade.mirror_y + at, shade.mirror_z + at);
-        const F32 weight = eighth_power(max(dot(r, l), splat(0.0f))) * hidden;
+        const F32 weight = mirror_weight(surface, r, l, at) * hidden;
         const Vec3x16 taken =
             load3(shade.mirrored_r + at, shade.mirrored_g + at, shade.mirrored_b + at) * weight;
         const Vec3x16 sum = load3(shade.r + at, shade.g + at, shade.b + at);

@@ -119,6 +119,13 @@ void begin_sample(const SurfaceBlock& s, const ShadeMaterial* materials, const S
     out.b[at] = radiance.z;
 }
 
+/// Of a part of the sky that the surface faces, or lets through, in what is mirrored along r.
+float mirror_weight(const SurfaceBlock& s, Vec3f r, Vec3f l, int at) {
+    const bool thin = (s.thin[at / 16] >> (at & 15) & 1u) != 0;
+    const bool asks = 0.0f < dot(Vec3f{s.gx[at], s.gy[at], s.gz[at]}, l) || thin;
+    return asks ? eighth_power(lane_max(dot(r, l), 0.0f)) : 0.0f;
+}
+
 }  // namespace
 
 Vec3f sky_radiance(const ShadeSky& sky, float y) {
@@ -227,7 +234,7 @@ void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials
         const Vec3f r = n * (2.0f * shade.nv[at]) - v;
         float weights = 1e-6f;
         for (std::int32_t i = 0; i < count; ++i)
-            weights = weights + eighth_power(lane_max(dot(r, vec(parts[i].to_light)), 0.0f));
+            weights = weights + mirror_weight(surface, r, vec(parts[i].to_light), at);
         const ShadeMaterial& m = materials[static_cast<std::size_t>(surface.material[at])];
         const Vec3f seen = (mirrored(sky, m, shade, n, v, at) * sky.ambient) * (1.0f / weights);
         shade.mirror_x[at] = r.x;
@@ -255,7 +262,7 @@ void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const
                             (let_in(veil, back) * back);
         }
         const Vec3f r{shade.mirror_x[at], shade.mirror_y[at], shade.mirror_z[at]};
-        const float weight = eighth_power(lane_max(dot(r, l), 0.0f)) * hidden;
+        const float weight = mirror_weight(surface, r, l, at) * hidden;
         const Vec3f arriving = (out * color) * seen,
                     taken = Vec3f{shade.mirrored_r[at], shade.mirrored_g[at], shade.mirrored_b[at]} * weight;
         shade.r[at] = (shade.r[at] + arriving.x) - taken.x;

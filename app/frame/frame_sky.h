@@ -18,8 +18,8 @@ struct FrameSky {
     Sky sky;                        ///< what it was made for
     std::optional<SkyModel> model;  ///< none: a gradient
     ShadeSky shade;                 ///< what surfaces mirror, and a gradient's background
-    /// With occlusion: parallel lights, no two from one direction; the lower half of the sphere is a
-    /// sixteenth of them, evenly.
+    /// With occlusion: parallel lights, Sky::samples from above the horizon, and a sixteenth as many, at
+    /// least 4, from below, evenly.
     std::vector<Light> lights;
 };
 

@@ -5,6 +5,9 @@
 
 #include "app/frame/lens.h"
 #include "core/error.h"
+#include "core/num.h"
+#include "core/sky/air.h"
+#include "core/sky/overcast_sky.h"
 #include "optics/aperture_extent.h"
 
 namespace obscura {
@@ -38,6 +41,24 @@ float largest(Vec3f v) {
     return std::max({v.x, v.y, v.z});
 }
 
+/// Radiance of the brightest that a sky shows: of a clear one the middle of the sun's disc, were there no
+/// air.
+float brightest_of(const Sky& sky) {
+    switch (sky.kind) {
+        case SkyKind::gradient:
+            return std::max({largest(sky.zenith), largest(sky.horizon), largest(sky.ground)});
+        case SkyKind::clear: {
+            // The limb is darker, so the middle is up to 1.5 times the mean.
+            const double sine = num::sin_deg(sun_radius_deg);
+            return static_cast<float>(1.5 * largest(to_float(sky.sun_above_air)) / (num::pi * sine * sine));
+        }
+        case SkyKind::overcast:
+            return largest(
+                overcast_sky(sky.sun_elevation_deg, sky.sun_above_air, to_double(sky.ground_albedo)).zenith);
+    }
+    return 0;
+}
+
 }  // namespace
 
 int glare_margin(const OpticsSettings& optics, const RenderSettings& render, double brightest_clips) {
@@ -57,10 +78,7 @@ int glare_margin(const Scene& scene) {
     float brightest = 0;
     for (const Material& material : scene.materials)
         brightest = std::max(brightest, largest(material.emission));
-    if (scene.sky.visible) {
-        brightest = std::max(
-            {brightest, largest(scene.sky.zenith), largest(scene.sky.horizon), largest(scene.sky.ground)});
-    }
+    if (scene.sky.visible) brightest = std::max(brightest, brightest_of(scene.sky));
     const double clip = glare_params(scene.optics, scene.render).clip;
     return glare_margin(scene.optics, scene.render, static_cast<double>(brightest) / clip);
 }

@@ -79,16 +79,16 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
         maps |= light.shadow.method == ShadowMethod::map || light.shadow.method == ShadowMethod::compressed;
     }
-    e.shadow_maps += exact_casters_bytes(mesh, lights);
+    e.shadow_maps += exact_casters_bytes(mesh, lights) + soft_passes_bytes(mesh, lights, scene.sky);
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
     const std::int64_t making =
-        std::max(shadow_work_bytes(mesh, lights, wide), exact_work_bytes(mesh, lights));
+        std::max(shadow_work_bytes(mesh, lights, wide), exact_work_bytes(mesh, lights, scene.sky));
     const std::int64_t picture =
         picture_bytes(wide, known.channels) +
         glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px);
     e.frame = prepared_bytes(mesh, wide) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
-              exact_tiles_bytes(lights) + std::max(making, making / 4 + picture);
+              exact_tiles_bytes(lights, scene.sky) + std::max(making, making / 4 + picture);
     e.frame += allocator_bytes(e.total() - dense);
     return e;
 }

@@ -26,6 +26,10 @@ bool any_exact(std::span<const SceneLight> lights) {
                        [](const SceneLight& light) { return light.shadow.method == ShadowMethod::exact; });
 }
 
+bool is_occluded(const Sky& sky) {
+    return sky.occlusion && sky.ambient > 0;
+}
+
 /// Nodes of one view's tree, all of it. A model, not a bound: they grow with the length of the outlines on
 /// the map, that is with its side; 31 to 32 per texel of the side in the closed city of Scandolo, Bauszat and
 /// Eisemann 2016, more where there are many leaves. Construction stops at the limit. Nothing where the
@@ -65,22 +69,29 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
         const bool six = shadow_view_count(light.light.kind) > 1;
         bytes += casters_bytes(six ? mesh.triangles * 5 / 4 : mesh.triangles);
     }
-    // Of lights with a size one pass at a time holds what some of their points see.
-    std::int64_t pass = 0;
-    for (const SceneLight& light : lights)
-        pass = std::max(pass, is_soft(light) ? soft_pass_bytes(mesh, is_parallel(light.light.kind)) : 0);
-    return bytes + pass;
+    return bytes;
 }
 
-std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
-    return any_exact(lights) ? casters_sorting_bytes(mesh.triangles) : 0;
+std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky) {
+    return any_exact(lights) || is_occluded(sky) ? casters_sorting_bytes(mesh.triangles) : 0;
 }
 
-std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights) {
-    if (!any_exact(lights)) return 0;
-    const bool soft = std::any_of(lights.begin(), lights.end(), is_soft);
+std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sky) {
+    if (!any_exact(lights) && !is_occluded(sky)) return 0;
+    const bool soft = is_occluded(sky) || std::any_of(lights.begin(), lights.end(), is_soft);
     const std::size_t together = std::max<std::size_t>(lights.size(), soft ? most_soft_together : 0);
     return hardware_threads() * exact_tile_bytes(together);
+}
+
+std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky) {
+    // Points that are no disc's have casters of their own, set up meanwhile.
+    const std::int64_t own = soft_pass_bytes(mesh, false) + setup_bytes(mesh);
+    std::int64_t most = is_occluded(sky) ? own : 0;
+    for (const SceneLight& light : lights) {
+        if (is_soft(light))
+            most = std::max(most, is_parallel(light.light.kind) ? soft_pass_bytes(mesh, true) : own);
+    }
+    return most;
 }
 
 int shadow_map_count(const SceneLight& light) {

@@ -259,7 +259,8 @@ void settle_soft_lights(const Work& work) {
         LightShadow& shadow = work.cache.shadows[i];
         if (!is_soft(shadow.light)) continue;
         if (shadow.light.shadow.samples == auto_samples)
-            shadow.stats.penumbra_px = widest_penumbra(work.pictures, shadow, work.exec);
+            shadow.stats.penumbra_px = std::min(widest_penumbra(work.pictures, shadow, work.exec),
+                                                static_cast<float>(most_auto_samples));
         shadow.stats.samples = points_for_penumbra(shadow.light, shadow.stats.penumbra_px);
         if (shadow.stats.samples == 1) continue;
         for (TileScene& tiles : work.pictures) {
@@ -328,6 +329,8 @@ std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
 bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
                      std::span<TileScene> pictures, FrameStats& stats, const std::atomic<bool>* cancel) {
     const Stopwatch watch;
+    for (TileScene& tiles : pictures)
+        tiles.casters = &scene.mesh;
     give_sky(scene, exec, cache, pictures);
     // A scene without geometry has nothing to cast or to receive.
     if (cache.bounds.empty()) return true;

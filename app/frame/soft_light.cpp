@@ -39,7 +39,7 @@ int strata(const SoftLight& soft, const TileScene& tiles) {
 
 int passes_of_stratum(const SoftLight& soft, const TileScene& tiles) {
     const auto points = static_cast<int>(soft.points.size()) / strata(soft, tiles);
-    const int together = soft_points_together(size_of(*tiles.mesh), soft.middle.has_value());
+    const int together = soft_points_together(size_of(*tiles.casters), soft.middle.has_value());
     return (points + together - 1) / together;
 }
 
@@ -92,8 +92,8 @@ class Pass {
   private:
     /// Parallel light: what the middle's casters do not tell.
     bool see_vertices(const Exec& exec) {
-        parts_ = soft_parts(*tiles_.mesh, points_, exec);
-        soft_ = exact_soft_light(light_.whole, *light_.middle, parts_, *tiles_.mesh);
+        parts_ = soft_parts(*tiles_.casters, points_, exec);
+        soft_ = exact_soft_light(light_.whole, *light_.middle, parts_, *tiles_.casters);
         pass_.soft = &soft_;
         for (const Light& point : points_)
             add(point, *light_.middle);
@@ -103,7 +103,7 @@ class Pass {
     /// Else each point has casters of its own. False when cancelled.
     bool order_casters(const Exec& exec, const std::atomic<bool>* cancel, TriangleSetup& scratch) {
         for (const Light& point : points_) {
-            casters_.push_back(build_casters(*tiles_.mesh, point, exec, scratch, cancel));
+            casters_.push_back(build_casters(*tiles_.casters, point, exec, scratch, cancel));
             if (casters_.back().empty()) return false;
             add(point, exact_light(point, casters_.back(), *tiles_.mesh, tiles_.rays));
         }
@@ -197,7 +197,7 @@ bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomi
     TriangleSetup scratch;
     for (const SoftLight& soft : tiles.soft) {
         const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
-        const int together = soft_points_together(size_of(*tiles.mesh), soft.middle.has_value());
+        const int together = soft_points_together(size_of(*tiles.casters), soft.middle.has_value());
         double of_sky = 0;
         double& seconds = soft.is_sky ? of_sky : stats[soft.shadow].build.build_s;
         for (int stratum = 0; stratum < m; ++stratum) {
@@ -223,6 +223,9 @@ void add_soft_lights(const TileScene& tiles, const FrameOptions& options, const 
             return frame.complete;
         });
     frame.complete = frame.complete && all;
+    // What is mirrored of a hidden sky was taken away part by part, in floats.
+    for (Vec3f& p : frame.radiance.pixels)
+        p = {std::max(p.x, 0.0f), std::max(p.y, 0.0f), std::max(p.z, 0.0f)};
 }
 
 }  // namespace obscura

@@ -43,6 +43,7 @@ struct TileScene {
     const TriangleSetup* setup = nullptr;
     const TileBins* bins = nullptr;
     const Mesh* mesh = nullptr;
+    const Mesh* casters = nullptr;  ///< what casts exact shadows: the scene's own, where `mesh` is moved, too
     View view;
     CameraRays rays;
     SurfaceMesh surface;

@@ -18,7 +18,8 @@ constexpr std::int64_t view_bytes = 4 + 12 + 3 * 4 + 4;
 // one.
 constexpr std::int64_t system_bytes = 6 * 4 + 2 + 16 + 2 * 4;
 // Vectors of the solver: eight on the finest level, a third more on all others together, and coefficients.
-constexpr std::int64_t solver_bytes = (8 + 6) * 4 * 4 / 3;
+// Before a sky, while poles are taken out: the system once more, two maps in double, order and counts.
+constexpr std::int64_t solver_bytes = (8 + 6) * 4 * 4 / 3 + 26 + 16 + 12 + 3;
 // Per pixel of an eye's picture: radiance, the map of what it sees, codes while it is encoded.
 constexpr std::int64_t eye_bytes = 12 + 16 + 24;
 

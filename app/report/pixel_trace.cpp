@@ -227,11 +227,8 @@ Vec3f PixelStory::sample(int x, int y, SamplePosition position) {
     }
     tell_surface(at);
     tell_material(at);
-    std::size_t shadow = 0;
-    for (const TileLight& light : tiles_.lights) {
-        tell_light(light, shadow, at);
-        shadow += light.casts_shadows() ? 1 : 0;
-    }
+    for (const TileLight& light : tiles_.lights)
+        tell_light(light, light.shadow, at);
     return radiance(at);
 }
 
@@ -298,6 +295,8 @@ PixelTrace trace_pixel(const Scene& scene, int x, int y, const Exec& exec, Frame
             trace.radiance = trace.radiance + story.soft_sample(pass, x, y, i) * share;
         return true;
     });
+    const Vec3f& r = trace.radiance;
+    trace.radiance = {std::max(r.x, 0.0f), std::max(r.y, 0.0f), std::max(r.z, 0.0f)};
     story.say("  mean radiance {}", text_of(trace.radiance));
     if (scene.optics.enabled) story.say("  without the glare that [optics] adds to the whole picture");
 

@@ -43,7 +43,8 @@ const KeyRows<Sky>& sky_rows() {
             "gradient: a mix of the three colours below. clear: computed from the air, for where the sun "
             "stands, dusk included; a sun without irradiance_w_m2 then has the colour that this air "
             "leaves it. overcast: three times as bright above as at the horizon, as bright as a day of "
-            "that sun; such a sun then sheds no light of its own."),
+            "that sun; such a sun then sheds no light of its own. The disc of a clear sky is 0.53 degrees "
+            "wide."),
         key_row(
             &Sky::turbidity,
             number_key("turbidity", "Clear: how hazy the air is; 2 is very clear, 6 hazy.").in({1.7, 10})),
@@ -61,11 +62,12 @@ const KeyRows<Sky>& sky_rows() {
                             "`samples` directions, with exact shadows; what is mirrored of it is dimmed as "
                             "much of it as is hidden. Surfaces do not light one another. false: it reaches "
                             "every surface, in closed rooms, too, and costs nothing.")),
-        key_row(&Sky::samples,
-                integer_key("samples",
-                            "Occlusion: directions that each pixel asks, shared out among its own "
-                            "samples.")
-                    .one_of({16, 64, 256, 1024})),
+        key_row(
+            &Sky::samples,
+            integer_key("samples",
+                        "Occlusion: directions above the horizon that each pixel asks, shared out among its "
+                        "own samples; a sixteenth as many, at least 4, lie below.")
+                .one_of({16, 64, 256, 1024})),
         key_row(&Sky::zenith,
                 vec3_or_number_key("zenith_w_m2_sr", "Gradient: radiance straight above.").in(brightness)),
         key_row(&Sky::horizon,

@@ -207,6 +207,10 @@ constexpr Word<AreaShape> area_shape_words[] = {{"rectangle", AreaShape::rectang
 KeyRows<Light> area_rows() {
     return lamp_rows() +
            KeyRows<Light>{
+               key_row(&Light::color, vec3_or_number_key("radiance_w_m2_sr", "Radiance, per channel.")
+                                          .in(brightness)
+                                          .need()
+                                          .animate()),
                {vec3_key("look_at_m", "Point straight before the light.").in(anywhere).need().animate()},
                {number_key("roll_deg",
                            "Turns it about the way it looks. At 0 its height is as upright as can be; of one "
@@ -217,10 +221,6 @@ KeyRows<Light> area_rows() {
                word_row(&Light::shape, area_shape_words, "shape", "disc: the ellipse in the rectangle."),
                key_row(&Light::width_m, number_key("width_m", "Whole width.").in(positive)),
                key_row(&Light::height_m, number_key("height_m", "Whole height.").in(positive)),
-               key_row(&Light::color, vec3_or_number_key("radiance_w_m2_sr", "Radiance, per channel.")
-                                          .in(brightness)
-                                          .need()
-                                          .animate()),
                key_row(&Light::two_sided, boolean_key("two_sided", "Shines to its back, too.")),
            };
 }

@@ -212,6 +212,7 @@ std::string shadow_method_reason(const SceneTable& root, const SceneTable& light
                            tree_break_even_frames, frames);
     }
     if (frames == 1) return "one frame";
+    if (given("samples")) return "'samples' is of exact shadows";
     if (is_soft(light, settings)) return "the light has a size, which maps of its middle do not show";
     if (has_keyframes(root, light)) return "the light has keyframes";
     return fmt::format("{} frames; a tree pays from {} on", frames, tree_break_even_frames);

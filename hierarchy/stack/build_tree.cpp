@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "hierarchy/stack/slab.h"
+#include "hierarchy/stack/stack_check.h"
 #include "hierarchy/tree_code.h"
 
 namespace obscura {
@@ -82,6 +83,10 @@ class Attempt {
 
 std::vector<Attempt> attempts_of(int slices, int map_levels, const StackTreeParams& params) {
     const int slice_levels = static_cast<int>(std::bit_width(static_cast<unsigned>(slices - 1)));
+    if (slice_levels > max_slice_levels) {
+        throw LimitError(fmt::format("a stack of {} shadow maps has more than the {} that lookups count",
+                                     slices, 1 << max_slice_levels));
+    }
     std::vector<Attempt> attempts;
     for (const int wanted : params.anisotropies) {
         const StackShape shape{map_levels, slice_levels, std::clamp(wanted, -slice_levels, map_levels)};

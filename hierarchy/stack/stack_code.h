@@ -9,7 +9,7 @@
 //
 // `narrow` headers are one word of 32 bits, with 16 bits of offset: full nodes take two words, empty nodes
 // and leaves one, and the words of the siblings before child i are the bits set below bit 2i. `wide` ones are
-// two words, with 48 bits of offset, for trees whose offsets do not reach: full, empty, leaf take 3, 2 and 1
+// two words, with 31 bits of offset, for trees whose offsets do not reach: full, empty, leaf take 3, 2 and 1
 // words, the kinds' own numbers.
 
 #include <cstdint>

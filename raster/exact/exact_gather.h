@@ -43,11 +43,11 @@ OBSCURA_INLINE void gather(const ExactPoints& points, const ExactLight& middle, 
 }
 
 /// Boxes that reach into `e` widened by what their depth makes of the light's size.
-OBSCURA_INLINE std::uint32_t within_reach(const CasterBoxes& boxes, const Extent& e, float steps_per_depth) {
+OBSCURA_INLINE std::uint32_t within_reach(const CasterBoxes& boxes, const Extent& e,
+                                          const ExactSpread& spread, int view) {
     const F32 z_low = load(boxes.z_low), z_high = splat(e.z_high);
-    const F32 steps = splat(steps_per_depth) * (z_high - z_low);
-    const I32 reach =
-        to_i32(min(max(steps, splat(0.0f)), splat(exact_most_reach))) + splat(exact_reach_slack);
+    const F32 steps = splat(spread.steps_per_depth[view]) * (z_high - z_low);
+    const I32 reach = to_i32(min(max(steps, splat(0.0f)), splat(exact_most_reach))) + splat(spread.slack);
     return bits(less_equal(load(boxes.x_low), splat(e.x_high) + reach) &
                 less_equal(splat(e.x_low) - reach, load(boxes.x_high)) &
                 less_equal(load(boxes.y_low), splat(e.y_high) + reach) &
@@ -56,7 +56,7 @@ OBSCURA_INLINE std::uint32_t within_reach(const CasterBoxes& boxes, const Extent
 
 /// Calls visit(triangle's place, its nearest depth) for what is within reach of e, until it returns false.
 template <class Visit>
-OBSCURA_INLINE void walk_reach(const ExactView& view, const Extent& e, float steps_per_depth,
+OBSCURA_INLINE void walk_reach(const ExactView& view, const Extent& e, const ExactSpread& spread, int v,
                                std::int64_t& groups, Visit&& visit) {
     struct Entry {
         std::int32_t level;
@@ -69,7 +69,7 @@ OBSCURA_INLINE void walk_reach(const ExactView& view, const Extent& e, float ste
         const Entry at = stack[--top];
         ++groups;
         const CasterBoxes& boxes = view.boxes[at.level][at.group];
-        std::uint32_t inside = within_reach(boxes, e, steps_per_depth);
+        std::uint32_t inside = within_reach(boxes, e, spread, v);
         if (at.level == 0) {
             for (; inside != 0; inside &= inside - 1) {
                 const int k = __builtin_ctz(inside);

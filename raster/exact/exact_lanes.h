@@ -4,7 +4,7 @@
 //
 // Samples come in an order in which neighbours lie close together on the light's grid. Boxes are asked for
 // sixteen of their children at once: first for sixteen bunches of samples together, then for each bunch among
-// what is left. Triangles are asked for the sixteen samples of a bunch.
+// what is left.
 
 #include "core/simd_vec.h"
 #include "raster/exact/exact.h"

@@ -9,11 +9,11 @@ namespace {
 /// How far before a sample of the bunch the triangle lies on the way to the light, at most, metres; negative
 /// when no part of the light has it before any.
 OBSCURA_INLINE float distance_before(const CasterTriangle& t, float z_low, const ExactLight& light,
-                                     const ExactSpread& spread, float steps_per_depth, const Bunch& s) {
+                                     const ExactSpread& spread, int view, const Bunch& s) {
     if (s.one_face && static_cast<std::int32_t>(t.face) == s.face[0]) return -1;
     const float depth = s.extent.z_high - z_low;
     if (exact_outside(t, s.extent.x_low, s.extent.x_high, s.extent.y_low, s.extent.y_high,
-                      exact_steps(steps_per_depth, depth))) {
+                      exact_steps(spread, view, depth))) {
         return -1;
     }
     const F64 height =
@@ -84,11 +84,10 @@ void exact_widest(const ExactPoints& points, const ExactLight& middle, const Exa
         next += members;
         const ExactView& view = middle.view[v];
         if (view.levels == 0 || g.is_far) continue;
-        const float slope = spread.steps_per_depth[v];
         float px = 0;
-        walk_reach(view, g.bunch.extent, slope, counts.groups, [&](std::uint32_t i, float z_low) {
+        walk_reach(view, g.bunch.extent, spread, v, counts.groups, [&](std::uint32_t i, float z_low) {
             ++counts.triangles;
-            const float before = distance_before(view.triangles[i], z_low, middle, spread, slope, g.bunch);
+            const float before = distance_before(view.triangles[i], z_low, middle, spread, v, g.bunch);
             const float wide = before > 0 ? exact_penumbra_px(middle, spread, g.bunch.middle, before) : 0.0f;
             px = px < wide ? wide : px;
             return px < stop_px;

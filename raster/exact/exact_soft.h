@@ -16,6 +16,7 @@
 // A light with a position sees a cone, too, with 1 / w for the depth, which is what depth is in perspective.
 // It is used to tell how wide penumbrae are; parts of such a light are asked one by one.
 
+#include <cstddef>
 #include <cstdint>
 
 #include "raster/exact/exact.h"
@@ -30,6 +31,7 @@ struct ExactSpread {
     float metres_per_depth = 0;     ///< parallel: of the view
     double sine = 0;                ///< parallel: of the angle from the middle of the disc to its rim,
     double tangent = 0;             ///< and its tangent
+    std::int32_t slack = 4;         ///< steps: rounding of the middle's grid and of all parts' grids
     double radius_m = 0;            ///< otherwise: no part of the light is farther from its middle
 };
 
@@ -52,25 +54,27 @@ struct alignas(64) ExactParts {
     const PartVertex* vertices = nullptr;
 };
 
+constexpr std::size_t most_soft_groups = 64;
+
 /// A parallel light with a size.
 struct ExactSoft {
     ExactLight middle;  ///< whose casters are all, those too that it sees along their plane
     ExactSpread spread;
-    const double (*planes)[4] = nullptr;  ///< of the mesh's faces: unit normal and distance
+    const std::uint32_t* corners = nullptr;  ///< three of each triangle that casts: vertices of `parts`
+    const double (*planes)[4] = nullptr;     ///< of its faces: unit normal and distance
     const ExactParts* parts = nullptr;
     std::int32_t groups = 0;  ///< of sixteen parts
 };
 
 constexpr double exact_beyond = 0x1p28;         ///< steps: how far off the grid places of samples are kept
 constexpr float exact_most_reach = 0x1.8p29f;   ///< steps: anything, from anywhere that near
-constexpr std::int32_t exact_reach_slack = 4;   ///< steps: rounding of both views' grids, and of the reach
 constexpr double exact_least_facing = 0x1p-20;  ///< cosine: below it the side that is seen is uncertain
 
 /// Steps that a thing before a point, nearer by `depth`, may stand beside its place, seen from the middle.
-[[gnu::always_inline]] inline std::int32_t exact_steps(float steps_per_depth, float depth) {
-    const float steps = steps_per_depth * depth;
+[[gnu::always_inline]] inline std::int32_t exact_steps(const ExactSpread& spread, int view, float depth) {
+    const float steps = spread.steps_per_depth[view] * depth;
     const float some = steps > 0 ? steps : 0.0f;
-    return static_cast<std::int32_t>(some < exact_most_reach ? some : exact_most_reach) + exact_reach_slack;
+    return static_cast<std::int32_t>(some < exact_most_reach ? some : exact_most_reach) + spread.slack;
 }
 
 /// Whether all of a rectangle on the grid, widened by `reach`, is outside of an edge.

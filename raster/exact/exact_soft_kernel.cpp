@@ -15,10 +15,10 @@ OBSCURA_INLINE bool may_darken(const CasterTriangle& t, float z_low, const Exact
     if (facing > 1.01 * soft.spread.sine + exact_least_facing) {
         const F64 height = (splat(t.n[0]) * load(s.px) + splat(t.n[1]) * load(s.py)) +
                            (splat(t.n[2]) * load(s.pz) + splat(t.d));
-        if ((s.open & ~bits(greater_equal(height, splat(0.5) * load(s.lowest)))) == 0) return false;
+        if ((s.open & ~bits(greater_equal(height, splat(0.0)))) == 0) return false;
     }
     return !exact_outside(t, s.extent.x_low, s.extent.x_high, s.extent.y_low, s.extent.y_high,
-                          exact_steps(soft.spread.steps_per_depth[0], s.extent.z_high - z_low));
+                          exact_steps(soft.spread, 0, s.extent.z_high - z_low));
 }
 
 /// What may darken something of sixteen samples, sixteen by sixteen.
@@ -65,11 +65,10 @@ struct Candidates {
         const F32 height = (load(n[0] + first) * splat(p[0]) + load(n[1] + first) * splat(p[1])) +
                            (load(n[2] + first) * splat(p[2]) + offset);
         const float size = (__builtin_fabsf(p[0]) + __builtin_fabsf(p[1])) + __builtin_fabsf(p[2]);
-        may &= bits(less(height - splat(0x1p-20f) * (splat(size) + abs(offset)),
-                         splat(0.49f * static_cast<float>(s.lowest[k]))));
+        may &= bits(less(height - splat(0x1p-20f) * (splat(size) + abs(offset)), splat(0.0f)));
         if (may == 0) return 0;
         const F32 reach = min(splat(soft.spread.steps_per_depth[0]) * depth, splat(exact_most_reach)) +
-                          splat(static_cast<float>(exact_reach_slack));
+                          splat(static_cast<float>(soft.spread.slack));
         const I32 sx = splat(s.x[k]), sy = splat(s.y[k]);
         for (int c = 0; c < 3 && may != 0; ++c) {
             const int next = c == 2 ? 0 : c + 1;
@@ -219,7 +218,7 @@ OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, const ExactSoft& 
     std::uint32_t dark = open & ((before & ~bits(greater_equal(splat(height), lowest))) |
                                  (behind & ~bits(greater_equal(splat(-height), lowest))));
     if (dark == 0) return 0;
-    const std::uint32_t* corner = soft.middle.corners + 3 * static_cast<std::size_t>(t.triangle);
+    const std::uint32_t* corner = soft.corners + 3 * static_cast<std::size_t>(t.triangle);
     const PartVertex* const v[3] = {parts.vertices + corner[0], parts.vertices + corner[1],
                                     parts.vertices + corner[2]};
     const F32 z_low = min(min(load(v[0]->z), load(v[1]->z)), load(v[2]->z)) - splat(depth_error);
@@ -245,12 +244,10 @@ OBSCURA_INLINE std::uint32_t darkened(const CasterTriangle& t, const ExactSoft& 
     return dark;
 }
 
-constexpr int most_groups = 64;
-
 /// Takes from each sample's `lit` parts those that one of the candidates darkens, and forgets these. False
 /// when nothing is lit any more.
 bool darken_parts(const ExactPoints& points, const ExactSoft& soft, const Gathered& g, Candidates& near,
-                  std::uint32_t (*lit)[most_groups], ExactCounts& counts) {
+                  std::uint32_t (*lit)[most_soft_groups], ExactCounts& counts) {
     bool any = false;
     for (std::uint32_t samples = g.bunch.open; samples != 0; samples &= samples - 1) {
         const int k = __builtin_ctz(samples);
@@ -324,7 +321,7 @@ void exact_soft(const ExactPoints& points, const ExactSoft& light, const ExactSa
                 const std::uint32_t* order, std::uint32_t* lit, std::int32_t stride,
                 ExactCounts& counts) noexcept {
     const ExactView& view = light.middle.view[0];
-    std::uint32_t parts_lit[16][most_groups];
+    std::uint32_t parts_lit[16][most_soft_groups];
     Gathered g;
     Candidates near;
     for (std::int32_t next = 0; next < samples.count; next += lanes) {
@@ -355,7 +352,7 @@ void exact_soft(const ExactPoints& points, const ExactSoft& light, const ExactSa
             for (std::int64_t i = 0; i < all && collect(static_cast<std::uint32_t>(i), 0.0f);)
                 ++i;
         } else if (view.levels > 0) {
-            walk_reach(view, g.bunch.extent, light.spread.steps_per_depth[0], counts.groups,
+            walk_reach(view, g.bunch.extent, light.spread, 0, counts.groups,
                        [&](std::uint32_t i, float z_low) {
                            ++counts.triangles;
                            return !may_darken(view.triangles[i], z_low, light, g.bunch) || collect(i, z_low);

@@ -127,7 +127,7 @@ CasterTriangle seen_by(const ExactParts& parts, std::size_t k, const ExactSoft& 
                        const CasterTriangle& of_middle, float& z_low) {
     const PartVertex* v[3];
     for (std::size_t c = 0; c < 3; ++c)
-        v[c] = parts.vertices + soft.middle.corners[3 * std::size_t{of_middle.triangle} + c];
+        v[c] = parts.vertices + soft.corners[3 * std::size_t{of_middle.triangle} + c];
     // Four units in the last place below the nearest corner's.
     z_low = std::min({v[0]->z[k], v[1]->z[k], v[2]->z[k]}) - 0x1p-22f;
     const std::int64_t area = std::int64_t{v[1]->x[k] - v[0]->x[k]} * (v[2]->y[k] - v[0]->y[k]) -
@@ -212,8 +212,7 @@ void exact_widest(const ExactPoints& points, const ExactLight& middle, const Exa
         for (std::int64_t t = 0; t < view.count; ++t) {
             const CasterTriangle& caster = view.triangles[t];
             const float z_low = view.boxes[0][t / 16].z_low[t % 16], depth = g.z_high - z_low;
-            if (!(z_low <= g.z_high) || !is_near(caster, g, exact_steps(spread.steps_per_depth[v], depth)))
-                continue;
+            if (!(z_low <= g.z_high) || !is_near(caster, g, exact_steps(spread, v, depth))) continue;
             ++counts.triangles;
             for (std::int32_t k = first; k < next; ++k) {
                 const auto at = static_cast<int>(samples.point[order[k]]);

@@ -1,7 +1,9 @@
 #include "raster/exact/soft_casters.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "raster/record.h"
 #include "raster/shadow_map.h"
@@ -26,6 +28,23 @@ void set_part(const Mesh& mesh, const Light& light, std::size_t k, ExactParts& p
         parts.to_light[r][k] = unit[r];
     }
     parts.step_m[k] = static_cast<float>(texel_size_m(view) / subtexel_one);
+}
+
+/// How many of the middle's steps, the shorter way, the longest of a part may span: a view is fitted to what
+/// casts, as it is seen from there.
+std::int32_t coarsest_steps(const SoftParts& parts, const ExactView& middle) {
+    const auto finest = [](const double(&row)[4]) { return length(Vec3d{row[0], row[1], row[2]}); };
+    const double steps_per_m = std::max(finest(middle.to_map[0]), finest(middle.to_map[1]));
+    double ratio = 1;
+    for (const ExactParts& group : parts.groups) {
+        for (std::size_t k = 0; k < 16; ++k) {
+            for (int r = 0; r < 2; ++r) {
+                const Vec3d row{group.to_map[r][0][k], group.to_map[r][1][k], group.to_map[r][2][k]};
+                ratio = std::max(ratio, steps_per_m / length(row));
+            }
+        }
+    }
+    return static_cast<std::int32_t>(std::min(std::ceil(ratio), 0x1p20));
 }
 
 }  // namespace
@@ -59,9 +78,12 @@ std::int64_t soft_parts_bytes(std::int64_t vertices) {
 ExactSoft exact_soft_light(const Light& light, const ExactLight& middle, const SoftParts& parts,
                            const Mesh& mesh) {
     static_assert(sizeof(Plane) == 4 * sizeof(double));
+    CHECK(parts.groups.size() <= most_soft_groups);
     ExactSoft soft;
     soft.middle = middle;
     soft.spread = exact_spread(light, middle);
+    soft.spread.slack += 2 * coarsest_steps(parts, middle.view[0]);
+    soft.corners = mesh.triangles.empty() ? nullptr : &mesh.triangles[0].v[0];
     soft.planes = mesh.faces.empty() ? nullptr : reinterpret_cast<const double(*)[4]>(mesh.faces.data());
     soft.parts = parts.groups.data();
     soft.groups = static_cast<std::int32_t>(parts.groups.size());

@@ -22,7 +22,7 @@ optics           filters optics/thesis
 stereo           raster
 stereo/solver    stereo
 stereo/thesis    stereo/solver
-app/scene        optics stereo stereo/thesis scenes
+app/scene        core/sky optics stereo stereo/thesis scenes
 app/frame        app/scene raster/exact
 app/pair         app/frame
 app/report       app/pair lessons/drawing

@@ -78,5 +78,23 @@ TEST(StereoGolden, ExactShadowsAreThoseOfAFineTree) {
     }
 }
 
+/// A disc so small that it has no penumbra, asked for sixteen points, casts the shadow of its middle.
+TEST(StereoGolden, ShadowsOfADiscAreOfTheWholeScene) {
+    const std::string exact = "light.sun.shadow={method=\"exact\"";
+    const StereoPair a = pair_of({}, {exact + "}"});
+    const StereoPair b = pair_of({}, {exact + ", samples=16}", "light.sun.angular_diameter_deg=0.0001"});
+    for (const auto& [mine, other] : {std::pair(&a.eyes.left.radiance, &b.eyes.left.radiance),
+                                      std::pair(&a.eyes.right.radiance, &b.eyes.right.radiance)}) {
+        int different = 0;
+        for (int y = 0; y < mine->height; ++y) {
+            for (int x = 0; x < mine->width; ++x) {
+                const Vec3f d = mine->view()(x, y) - other->view()(x, y);
+                different += dot(d, d) > 1e-4f;
+            }
+        }
+        EXPECT_LE(different, 5);
+    }
+}
+
 }  // namespace
 }  // namespace obscura

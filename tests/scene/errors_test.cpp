@@ -104,7 +104,7 @@ const std::vector<BadScene>& bad_scenes() {
         {"AreaWithoutSize",
          light("type = \"area\"\nposition_m = [0, 3, 0]\nlook_at_m = [0, 0, 0]\nradiance_w_m2_sr = "
                "5\nwidth_m = 0"),
-         "s.toml:9:11: 'width_m' must be in (0, 1e+07], not 0"},
+         "s.toml:9:11: 'width_m' must be in (0, 1000000000], not 0"},
         {"AreaWithoutAWay",
          light("type = \"area\"\nposition_m = [0, 3, 0]\nlook_at_m = [0, 3, 0]\nradiance_w_m2_sr = 5"),
          "s.toml:7:13: 'look_at_m' is nearer to 'position_m' than 1e-06 m"},

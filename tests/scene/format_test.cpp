@@ -211,11 +211,18 @@ TEST_F(SceneKeys, OfOpticsAreRead) {
 TEST_F(SceneKeys, OfEverythingElseAreRead) {
     const std::string base =
         start + camera + "[[output]]\nfile = \"a_####.png\"\n[[mesh]]\nid = \"m\"\nshape = \"box\"\n";
+    const auto sun = [](const char* id, int azimuth) {
+        return std::string("[[light]]\nid = \"") + id +
+               "\"\ntype = \"directional\"\nelevation_deg = 20\nazimuth_deg = " + std::to_string(azimuth) +
+               "\n";
+    };
+    const std::string under_suns =
+        base + sun("first", 90) + sun("second", 200) + "[sky]\nmodel = \"clear\"\n";
     for (const KeySpec& key : scene_schema_root().keys) {
         if (key.name == "material") expect_all_matter({base}, "material.main.", key.table->keys);
-        if (key.name == "sky" || key.name == "render" || key.name == "limits") {
+        if (key.name == "render" || key.name == "limits")
             expect_all_matter({base}, key.name + ".", key.table->keys);
-        }
+        if (key.name == "sky") expect_all_matter({base, under_suns}, "sky.", key.table->keys);
         if (key.name == "output") expect_all_matter({base}, "output.0.", key.table->keys);
     }
 }

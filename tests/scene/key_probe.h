@@ -32,6 +32,7 @@ inline std::vector<std::string> candidates(const KeySpec& key) {
         {"materials", {"{default = \"other\"}"}},
         {"range", {"\"2-6\""}},
         {"id", {"\"renamed\"", "\"second\""}},
+        {"sun", {"\"second\""}},
         {"time", {"2026-06-21T10:00:00Z", "2026-06-21T12:00:00Z"}},
         {"frame", {"2.5"}},
     };

@@ -8,8 +8,8 @@
 
 #include "stereo/solver/solver.h"
 #include "stereo/solver/system_parts.h"
-#include "stereo/thesis/cascade.h"
 #include "stereo/solver/thin_trees.h"
+#include "stereo/thesis/cascade.h"
 #include "tests/stereo/small_solver.h"
 
 namespace obscura {
