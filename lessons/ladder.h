@@ -30,7 +30,8 @@ constexpr int lesson_width = 1600, lesson_height = 1000;
     LESSON(lesson_16_v_cycle, "The V-cycle", "what is wrong goes down the levels, corrections come up; error per iteration") \
     LESSON(lesson_17_vertices, "Vertices follow the map", "triangles cut where the map bends, moved half a disparity for either eye") \
     LESSON(lesson_18_kept_field, "A far field up to date", "a disc moves over an iris: the difference is added, its drift is counted, its price compared") \
-    LESSON(lesson_19_exact_shadows, "The sample is the texel", "shadows of the camera's own samples, without a map: edges, planes, and what is uncertain")
+    LESSON(lesson_19_exact_shadows, "The sample is the texel", "shadows of the camera's own samples, without a map: edges, planes, and what is uncertain") \
+    LESSON(lesson_20_penumbrae, "Penumbrae", "a light with a size as many without: where they are, what too few show, what all at once cost")
 // clang-format on
 
 #define OBSCURA_DECLARE_LESSON(draw, title, summary) Image<Rgb8> draw(const Exec& exec);

@@ -98,7 +98,7 @@ run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
         # Not kernels, which are built once per instruction set; not image_io.cpp, which holds all of stb.
         local not='_kernel\.cpp'$'\t''|/image_io\.cpp'$'\t' rooms="^$PWD/(core|raster|hierarchy|filters)/"
         grep -E "$rooms" "$work/all" | grep -vE "$not" >"$work/always"
-        # The others have been through as a whole once.
+        # Of the others what changes.
         grep -vE "$rooms" "$work/first" | grep -vE "$not" >"$work/timed"
     else
         if [ "$(head -n 1 "$2/tidied" 2>/dev/null)" = "$(state_of_sources)" ]; then cp "$2/tidied" "$work/tidied"; fi

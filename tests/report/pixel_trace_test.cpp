@@ -53,8 +53,22 @@ TEST(PixelTrace, EndsAtThePicturesPixelBitForBit) {
     for (const int samples : {1, 4, 16}) {
         expect_pictures_pixels(everything(samples));
         expect_pictures_pixels(exactly(everything(samples)));
-        expect_pictures_pixels(softly(everything(samples)));
     }
+}
+
+TEST(PixelTrace, EndsThereWithLightsThatHaveASize) {
+    for (const int samples : {1, 4, 16})
+        expect_pictures_pixels(softly(everything(samples)));
+}
+
+TEST(PixelTrace, TellsOfALightWithASizeHowMuchReachesASample) {
+    Scene scene = softly(everything(4));
+    scene.sky.occlusion = true;
+    scene.sky.samples = 16;
+    const std::string text = trace_pixel(scene, 100, 110).text;
+    for (const char* word : {"(directional, with a size): ", " of 16 points reach it",
+                             "(area, with a size): ", "sky: ", " of 5 directions reach it"})
+        EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
 }
 
 TEST(PixelTrace, NamesTheTriangleThatDarkensASample) {
