@@ -61,6 +61,7 @@ template <class Units>
 OBSCURA_TREE_INLINE TopNode tree_child(const TreeCode& tree, TopNode at, int height, std::int32_t x,
                                        std::int32_t y) {
     const std::uint32_t header = tree_unit<Units>(tree, at.node);
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): no descent goes below height 1
     const int bit = (x >> (height - 1) & 1) * 2 + (y >> (height - 1) & 1) * 4;
     const std::uint32_t kind = header >> bit & 3u;
     const std::uint32_t below = header & ((1u << bit) - 1u);

@@ -101,7 +101,7 @@ void draw_steps(Figure& f, const ExactScene& scene, const SeenPoints& seen,
 /// Step 3: what is wrong with few of them, and what many of them take.
 void draw_charts(Figure& f, const std::vector<Sunlight>& suns, const Sunlight& truth) {
     f.text({40, 740}, "3  Error", lettering::head);
-    const Plot error{{110, 766, 380, 150}, 0, std::log2(256.0), -3.5, -0.5};
+    const Plot error{{110, 766, 380, 150}, 0, 8, -3.5, -0.5};
     decade_axes(f, error, false, "parts: 1, 4, 16, 64, 256", "rms of a sample's light");
     std::vector<Vec2d> curve;
     for (const Sunlight& sun : suns) {
@@ -114,7 +114,7 @@ void draw_charts(Figure& f, const std::vector<Sunlight>& suns, const Sunlight& t
         f.disc(p, 3.5, ink::red);
 
     f.text({590, 740}, "4  Work: triangles and boxes asked, for each sample", lettering::head);
-    const Plot work{{660, 766, 380, 150}, 0, std::log2(64.0), -1, 2};
+    const Plot work{{660, 766, 380, 150}, 0, 6, -1, 2};
     decade_axes(f, work, false, "parts: 1, 4, 16, 64", "sixteen at a time");
     std::vector<Vec2d> together, alone;
     const auto samples = static_cast<double>(truth.share.size());

@@ -111,6 +111,7 @@ std::vector<Light> light_samples(const Light& light, int count) {
     CHECK(count >= 1);
     if (!has_size(light) || count == 1) return {light};
     std::vector<Light> samples;
+    samples.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k)
         samples.push_back(sample_of(light, k, count));
     return samples;

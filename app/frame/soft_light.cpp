@@ -61,8 +61,12 @@ class Pass {
     Pass(const TileScene& tiles, const SoftLight& soft, int stratum, int begin, int count)
         : light_(soft), tiles_(dark(tiles)) {
         const int m = strata(soft, tiles), of_sample = static_cast<int>(soft.points.size()) / m;
+        const auto point = [&](int i) -> const Light& {
+            return soft.points[static_cast<std::size_t>(stratum) +
+                               static_cast<std::size_t>(i) * static_cast<std::size_t>(m)];
+        };
         for (int i = begin; i < begin + count; ++i)
-            points_.push_back(soft.points[static_cast<std::size_t>(stratum + i * m)]);
+            points_.push_back(point(i));
         pass_.light = &soft;
         pass_.first = stratum;
         pass_.stride = m;
@@ -74,8 +78,7 @@ class Pass {
         tiles_.sky.background = 0;
         for (int i = 0; i < of_sample; ++i) {
             ShadeSkyPart& part = pass_.sky.emplace_back();
-            const ShadeLight light =
-                shade_light_of(soft.points[static_cast<std::size_t>(stratum + i * m)], {});
+            const ShadeLight light = shade_light_of(point(i), {});
             std::copy_n(light.to_light, 3, part.to_light);
         }
     }

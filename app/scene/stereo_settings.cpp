@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "app/scene/keyframes.h"
@@ -58,7 +59,7 @@ StereoSettings stereo_settings(const SceneDocument& document, const Scene& scene
     read_rows(stereo_rows(), table, s);
     s.rig.zero_parallax_m = zero_parallax_m(table, scene.camera);
     if (s.margin_px != auto_margin)
-        s.margin_px = static_cast<int>(static_cast<double>(s.margin_px) * context.px + 0.5);
+        s.margin_px = static_cast<int>(std::lround(static_cast<double>(s.margin_px) * context.px));
     s.solver.tolerance_rms_px = 0.4 * s.solver.tolerance_max_px;
     set_limit(table, "comfort_near", s.rig, scene.render.width, s.edit.comfort.nearest_px);
     set_limit(table, "comfort_far", s.rig, scene.render.width, s.edit.comfort.farthest_px);

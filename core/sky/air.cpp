@@ -153,7 +153,8 @@ std::vector<double> ray_steps(double height_km, double cos_zenith, int steps) {
     const auto third = [](double height) { return num::cbrt(height); };
     const double down = third(height_km - lowest), up = end.on_ground ? 0 : third(top - lowest);
     const int before =
-        end.on_ground ? steps : std::clamp(static_cast<int>(steps * down / (down + up) + 0.5), 1, steps - 1);
+        end.on_ground ? steps
+                      : std::clamp(static_cast<int>(std::lround(steps * down / (down + up))), 1, steps - 1);
     std::vector<double> borders = graded(perigee, lowest, height_km, before);
     const double to_lowest = borders.back();
     for (double& border : borders)
@@ -190,7 +191,8 @@ AirAmount air_to_space(double height_km, double cos_zenith) {
     const int i = std::min(static_cast<int>(x), height_cells - 1),
               j = std::min(static_cast<int>(y), angle_cells - 1);
     const double u = x - i, v = y - j;
-    const AirAmount* low = &table[static_cast<std::size_t>(i * (angle_cells + 1) + j)];
+    const AirAmount* low =
+        &table[static_cast<std::size_t>(i) * (angle_cells + 1) + static_cast<std::size_t>(j)];
     const AirAmount* high = low + (angle_cells + 1);
     return (low[0] * (1 - v) + low[1] * v) * (1 - u) + (high[0] * (1 - v) + high[1] * v) * u;
 }

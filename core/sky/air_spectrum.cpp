@@ -71,8 +71,8 @@ Vec3d sun_xyz(double wavelength_nm) {
 /// Sum over the visible by steps of 1 nm, W/m2.
 Vec3d whole_sun_xyz() {
     Vec3d sum;
-    for (double nm = shortest_visible_nm; nm <= longest_visible_nm; ++nm)
-        sum = sum + sun_xyz(nm);
+    for (int i = 0; shortest_visible_nm + i <= longest_visible_nm; ++i)
+        sum = sum + sun_xyz(shortest_visible_nm + i);
     return sum;
 }
 
@@ -98,7 +98,8 @@ AirSpectrum air_spectrum(double turbidity, Vec3d sun_above_air, int count) {
     // Between wavelengths what the air does to light is taken as linear; the sun's lines and the observer are
     // not.
     std::array<Vec3d, most_wavelengths> xyz{};
-    for (double nm = shortest_visible_nm; nm <= longest_visible_nm; ++nm) {
+    for (int k = 0; shortest_visible_nm + k <= longest_visible_nm; ++k) {
+        const double nm = shortest_visible_nm + k;
         const double cell = std::clamp((nm - shortest) / step, 0.0, static_cast<double>(last));
         const std::size_t i = std::min(static_cast<std::size_t>(cell), last - 1);
         const double t = cell - static_cast<double>(i);
