@@ -79,7 +79,7 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
         maps |= light.shadow.method == ShadowMethod::map || light.shadow.method == ShadowMethod::compressed;
     }
-    e.shadow_maps += exact_casters_bytes(mesh, lights) + soft_passes_bytes(mesh, lights, scene.sky);
+    e.shadow_maps += exact_casters_bytes(mesh, lights) + soft_passes_bytes(mesh, lights, scene.sky, wide);
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
     const std::int64_t making =

@@ -10,6 +10,7 @@
 #include "hierarchy/build_memory.h"
 #include "hierarchy/tree_code.h"
 #include "raster/exact/casters.h"
+#include "raster/exact/soft_casters.h"
 #include "raster/gbuffer.h"
 #include "raster/setup_memory.h"
 #include "raster/shadow_map.h"
@@ -24,6 +25,14 @@ bool builds_parts(const ShadowSettings& shadow) {
 bool any_exact(std::span<const SceneLight> lights) {
     return std::any_of(lights.begin(), lights.end(),
                        [](const SceneLight& light) { return light.shadow.method == ShadowMethod::exact; });
+}
+
+/// Parts of a disc that one pass asks, as add_soft_lights() shares them out.
+std::int64_t disc_bytes(const MeshSize& mesh, const SceneLight& light, const RenderSettings& render) {
+    const int asked = light.shadow.samples == auto_samples ? 16 : light.shadow.samples;
+    const int of_sample = asked / std::clamp(asked / 16, 1, render.samples);
+    return std::min(std::int64_t{(of_sample + 15) / 16} * soft_parts_bytes(mesh.vertices),
+                    soft_pass_bytes(mesh, true));
 }
 
 bool is_occluded(const Sky& sky) {
@@ -83,13 +92,14 @@ std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sk
     return hardware_threads() * exact_tile_bytes(together);
 }
 
-std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky) {
+std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky,
+                               const RenderSettings& render) {
     // Points that are no disc's have casters of their own, set up meanwhile.
     const std::int64_t own = soft_pass_bytes(mesh, false) + setup_bytes(mesh);
     std::int64_t most = is_occluded(sky) ? own : 0;
     for (const SceneLight& light : lights) {
         if (is_soft(light))
-            most = std::max(most, is_parallel(light.light.kind) ? soft_pass_bytes(mesh, true) : own);
+            most = std::max(most, is_parallel(light.light.kind) ? disc_bytes(mesh, light, render) : own);
     }
     return most;
 }

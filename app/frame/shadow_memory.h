@@ -15,8 +15,10 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
 std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky);
 /// Of the tiles that threads have in work.
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sky);
-/// What a pass over the tiles holds, of lights with a size and of a sky that surfaces occlude.
-std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky);
+/// What a pass over the tiles holds, of lights with a size and of a sky that surfaces occlude; expected for
+/// discs whose parts the picture counts: sixteen at a time.
+std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky,
+                               const RenderSettings& render);
 
 /// Maps of a light: none without shadows, six for a point light; and the bytes that lookups read of them when
 /// all of them is built, exact for dense maps, expected for compressed ones.
