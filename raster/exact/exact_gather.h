@@ -58,32 +58,11 @@ OBSCURA_INLINE std::uint32_t within_reach(const CasterBoxes& boxes, const Extent
 template <class Visit>
 OBSCURA_INLINE void walk_reach(const ExactView& view, const Extent& e, const ExactSpread& spread, int v,
                                std::int64_t& groups, Visit&& visit) {
-    struct Entry {
-        std::int32_t level;
-        std::uint32_t group;
-    };
-    Entry stack[16 * most_caster_levels];
-    int top = 0;
-    stack[top++] = {view.levels - 1, 0};
-    while (top > 0) {
-        const Entry at = stack[--top];
-        ++groups;
-        const CasterBoxes& boxes = view.boxes[at.level][at.group];
-        std::uint32_t inside = within_reach(boxes, e, spread, v);
-        if (at.level == 0) {
-            for (; inside != 0; inside &= inside - 1) {
-                const int k = __builtin_ctz(inside);
-                if (!visit(16 * at.group + static_cast<std::uint32_t>(k), boxes.z_low[k])) return;
-            }
-            continue;
-        }
-        // Last first, so that the first is on top.
-        while (inside != 0) {
-            const int k = 31 - __builtin_clz(inside);
-            inside &= ~(1u << k);
-            stack[top++] = {at.level - 1, 16 * at.group + static_cast<std::uint32_t>(k)};
-        }
-    }
+    walk(
+        view, groups, [&](const CasterBoxes& boxes) { return within_reach(boxes, e, spread, v); },
+        [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
+            return visit(first + static_cast<std::uint32_t>(k), boxes.z_low[k]);
+        });
 }
 
 }  // namespace

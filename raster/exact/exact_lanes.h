@@ -83,9 +83,10 @@ OBSCURA_INLINE std::uint32_t overlapping(const CasterBoxes& boxes, const Extent&
         less_equal(load(boxes.z_low), splat(e.z_high)));
 }
 
-/// Calls visit(group of boxes, child) for every triangle whose box overlaps e, until it returns false.
-template <class Visit>
-OBSCURA_INLINE void walk(const ExactView& view, const Extent& e, std::int64_t& groups, Visit&& visit) {
+/// Calls visit(group of boxes, child) for every triangle whose box inside_of(boxes) names, as it does the
+/// boxes around it, until it returns false.
+template <class Inside, class Visit>
+OBSCURA_INLINE void walk(const ExactView& view, std::int64_t& groups, Inside&& inside_of, Visit&& visit) {
     struct Entry {
         std::int32_t level;
         std::uint32_t group;
@@ -97,7 +98,7 @@ OBSCURA_INLINE void walk(const ExactView& view, const Extent& e, std::int64_t& g
         const Entry at = stack[--top];
         ++groups;
         const CasterBoxes& boxes = view.boxes[at.level][at.group];
-        std::uint32_t inside = overlapping(boxes, e);
+        std::uint32_t inside = inside_of(boxes);
         if (at.level == 0) {
             for (; inside != 0; inside &= inside - 1) {
                 if (!visit(boxes, 16 * at.group, __builtin_ctz(inside))) return;
@@ -111,6 +112,13 @@ OBSCURA_INLINE void walk(const ExactView& view, const Extent& e, std::int64_t& g
             stack[top++] = {at.level - 1, 16 * at.group + static_cast<std::uint32_t>(k)};
         }
     }
+}
+
+/// The same for those that overlap e.
+template <class Visit>
+OBSCURA_INLINE void walk(const ExactView& view, const Extent& e, std::int64_t& groups, Visit&& visit) {
+    walk(
+        view, groups, [&](const CasterBoxes& boxes) { return overlapping(boxes, e); }, visit);
 }
 
 OBSCURA_INLINE Extent united(const Extent& a, const Extent& b) {

@@ -62,7 +62,7 @@ class StackData : public ::testing::TestWithParam<const char*> {};
 /// A lamp of a twentieth of the scene, focused on its ground.
 TEST_P(StackData, EveryTexelOfEveryMap) {
     const std::filesystem::path data = OBSCURA_SOURCE_DIR "/../shared/data";
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no data folder";
+    if (!std::filesystem::exists(data)) GTEST_SKIP() << "SKIPPED: no ../shared/data here";
     for (const ShadowRecipe& recipe : shadow_recipes(data, false)) {
         if (recipe.name != GetParam()) continue;
         const Mesh mesh = stage_shadows(recipe, {}).mesh;
@@ -79,7 +79,7 @@ TEST_P(StackData, EveryTexelOfEveryMap) {
         }
         return;
     }
-    GTEST_SKIP() << "its file is not there";
+    GTEST_SKIP() << "SKIPPED: ../shared/data has no " << GetParam();
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, StackData,
