@@ -62,6 +62,15 @@ void ExactWork::shadows(const ExactPoints& points, const ExactSoft& light, Isa i
                      static_cast<std::int32_t>(stride), counts);
 }
 
+void ExactWork::nearest(const ExactPoints& points, const ExactLight& light, Isa isa, const std::uint32_t* lit,
+                        const ExactHits& hits, ExactCounts& counts) {
+    CHECK(light.directional, "the nearest triangle is known for parallel light alone");
+    OBSCURA_DISPATCH(isa, exact_unlit, points, light, lit, samples_);
+    if (samples_.count == 0) return;
+    sort_samples(light.views);
+    OBSCURA_DISPATCH(isa, exact_nearest, points, light, samples_, order_.data(), hits, counts);
+}
+
 float ExactWork::widest_penumbra(const ExactPoints& points, const ExactLight& light,
                                  const ExactSpread& spread, float stop_px, Isa isa, ExactCounts& counts) {
     float widest_px = 0;

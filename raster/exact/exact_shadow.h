@@ -9,6 +9,7 @@
 #include "core/isa.h"
 #include "core/mesh.h"
 #include "raster/exact/exact.h"
+#include "raster/exact/exact_nearest.h"
 #include "raster/exact/exact_soft.h"
 #include "raster/gbuffer.h"
 
@@ -29,6 +30,11 @@ class ExactWork {
     /// The same for each part of a light with a size: part p's bits are lit[p * stride + i / 16].
     void shadows(const ExactPoints& points, const ExactSoft& light, Isa isa, std::uint32_t* lit,
                  std::size_t stride, ExactCounts& counts);
+
+    /// The nearest triangle before each point that faces parallel light, or lets it through, and has no bit in
+    /// `lit`: shadows() of the same points and light. Others keep what hits has for them.
+    void nearest(const ExactPoints& points, const ExactLight& light, Isa isa, const std::uint32_t* lit,
+                 const ExactHits& hits, ExactCounts& counts);
 
     /// Width of the widest penumbra among the points, pixels, when it is less than stop_px; else that or
     /// more. `light`: the middle of a light that has any position.

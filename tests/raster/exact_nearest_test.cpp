@@ -1,0 +1,101 @@
+// What stands before points in shadow: kernels against the definition, the definition against every triangle.
+
+#include "raster/exact/exact_nearest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "raster/depth_tile.h"
+#include "raster/exact/casters.h"
+#include "raster/exact/exact_shadow.h"
+#include "tests/raster/exact_points.h"
+#include "tests/raster/exact_scenes.h"
+
+namespace obscura {
+namespace {
+
+using namespace exact_scenes;
+
+struct Hits {
+    std::vector<std::uint32_t> triangle;
+    std::vector<float> distance_m;
+    explicit Hits(std::size_t count) : triangle(count, no_triangle), distance_m(count, -1) {}
+    ExactHits view() { return {triangle.data(), distance_m.data()}; }
+    friend bool operator==(const Hits&, const Hits&) = default;
+};
+
+Hits hits_of(const ExactPoints& points, const ExactLight& light, Isa isa) {
+    const auto count = static_cast<std::size_t>(points.count);
+    ExactWork work(count);
+    ExactCounts counts;
+    std::vector<std::uint32_t> lit(count / 16);
+    work.shadows(points, light, isa, lit.data(), counts);
+    Hits hits(count);
+    work.nearest(points, light, isa, lit.data(), hits.view(), counts);
+    return hits;
+}
+
+struct Seen {
+    std::int64_t points = 0, dark = 0;
+};
+
+void compare(unsigned seed, Seen& sum) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Source source(seed);
+    const double unit = std::pow(10, source.between(-2, 3));
+    const Vec3d origin = source.below(6) == 0 ? Vec3d{1e5, 2e5, -1e5} : source.in(-3, 3) * unit;
+    const Mesh mesh = draw_mesh(source, unit, origin);
+    Light light = draw_light(source, mesh, unit, origin);
+    light.kind = LightKind::directional;
+    light.direction = normalize(source.in(-1, 1));
+    const Vec3d eye = origin + source.in(-4, 7) * unit;
+    TriangleSetup scratch;
+    const auto casters = build_casters(mesh, light, {}, scratch);
+    const ExactLight exact =
+        exact_light(light, casters, mesh, rays_from(eye, std::pow(10, source.between(-4, -2))));
+    const Points drawn = draw_points(source, mesh, eye, 400);
+    const ExactPoints points = drawn.view();
+
+    Hits found = hits_of(points, exact, Isa::ref);
+    for (const Isa isa : supported_isas())
+        ASSERT_EQ(hits_of(points, exact, isa), found) << isa_name(isa);
+    for (int i = 0; i < drawn.count(); ++i) {
+        const ref::ExactShadow s = ref::exact_shadow(points, exact, i);
+        const auto at = static_cast<std::size_t>(i);
+        ++sum.points;
+        ASSERT_EQ(found.triangle[at] != no_triangle, s.asks && !s.lit) << "point " << i;
+        if (found.triangle[at] == no_triangle) continue;
+        ++sum.dark;
+        // Several triangles of one plane may be as near.
+        EXPECT_NEAR(found.distance_m[at], s.distance_m, 1e-6 * s.distance_m) << "point " << i;
+    }
+}
+
+TEST(ExactNearest, IsTheNearestOfAllThatDarken) {
+    Seen sum;
+    const char* slow = std::getenv("OBSCURA_SLOW_TESTS");
+    const unsigned scenes = slow != nullptr ? static_cast<unsigned>(std::max(1000, std::atoi(slow))) : 80;
+    for (unsigned seed = 0; seed < scenes && !testing::Test::HasFatalFailure(); ++seed)
+        compare(seed, sum);
+    EXPECT_GT(sum.dark, sum.points / 5);
+}
+
+TEST(ExactNearest, WantsParallelLight) {
+    Source source(1);
+    const Mesh mesh = draw_mesh(source, 1, {});
+    Light light;
+    light.kind = LightKind::point;
+    light.position = {0, 50, 0};
+    TriangleSetup scratch;
+    const auto casters = build_casters(mesh, light, {}, scratch);
+    const ExactLight exact = exact_light(light, casters, mesh, rays_from({0, 9, 9}, 1e-3));
+    const Points drawn = draw_points(source, mesh, {0, 9, 9}, 16);
+    EXPECT_DEATH(hits_of(drawn.view(), exact, Isa::ref), "parallel");
+}
+
+}  // namespace
+}  // namespace obscura
