@@ -6,6 +6,7 @@
 #include "app/frame/exact_tile.h"
 #include "app/frame/needed_texels.h"
 #include "app/frame/soft_light.h"
+#include "app/frame/surface_light.h"
 #include "core/parallel.h"
 #include "hierarchy/build_memory.h"
 #include "hierarchy/tree_code.h"
@@ -37,6 +38,10 @@ std::int64_t disc_bytes(const MeshSize& mesh, const SceneLight& light, const Ren
 
 bool is_occluded(const Sky& sky) {
     return sky.occlusion && sky.ambient > 0;
+}
+
+bool sends_on(const Sky& sky) {
+    return is_occluded(sky) && sky.bounces > 0;
 }
 
 /// Nodes of one view's tree, all of it. A model, not a bound: they grow with the length of the outlines on
@@ -82,14 +87,15 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
 }
 
 std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky) {
-    return any_exact(lights) || is_occluded(sky) ? casters_sorting_bytes(mesh.triangles) : 0;
+    if (!any_exact(lights) && !is_occluded(sky)) return 0;
+    return casters_sorting_bytes(mesh.triangles) + (sends_on(sky) ? surface_light_work_bytes(mesh) : 0);
 }
 
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sky) {
     if (!any_exact(lights) && !is_occluded(sky)) return 0;
     const bool soft = is_occluded(sky) || std::any_of(lights.begin(), lights.end(), is_soft);
     const std::size_t together = std::max<std::size_t>(lights.size(), soft ? most_soft_together : 0);
-    return hardware_threads() * exact_tile_bytes(together);
+    return hardware_threads() * exact_tile_bytes(together, sends_on(sky));
 }
 
 std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky,
@@ -101,7 +107,7 @@ std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight>
         if (is_soft(light))
             most = std::max(most, is_parallel(light.light.kind) ? disc_bytes(mesh, light, render) : own);
     }
-    return most;
+    return most + (sends_on(sky) ? surface_light_bytes(mesh) : 0);
 }
 
 int shadow_map_count(const SceneLight& light) {

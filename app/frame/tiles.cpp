@@ -63,7 +63,7 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
     std::vector<double> lookup_s(tiles * lights, 0.0);
     std::atomic<bool> skipped = false;
     const bool has_exact = scene.has_exact();
-    ExactTilePool pool(lights);
+    ExactTilePool pool(lights, scene.gathers());
     std::vector<ExactCounts> counts(tiles);
     parallel_for(tiles, exec, [&](std::size_t i) {
         if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {

@@ -216,10 +216,15 @@ void check_frames(const SceneDocument& document, const std::vector<std::string>&
     }
 }
 
-/// A sky that follows the sun needs one.
+/// A sky that follows the sun needs one, and an image a file.
 void check_sky(const SceneTable& root, const std::vector<std::string>& light_ids, const Sources& sources) {
     const SceneTable& sky = subtable(root, "sky");
-    if (text(sky, "model") == "gradient") return;
+    const std::string model = text(sky, "model");
+    if (sky.has("file") != (model == "image")) {
+        fail_at(place_of(sky, sky.has("file") ? "file" : "model"), sources,
+                sky.has("file") ? "'file' needs 'model' = \"image\"" : "'model' = \"image\" needs 'file'");
+    }
+    if (model == "gradient" || model == "image") return;
     const std::string id = sky.has("sun") ? text(sky, "sun") : "";
     if (!id.empty()) require_known(id, place_of(sky, "sun"), light_ids, "light", sources);
     bool found = false;
@@ -238,6 +243,11 @@ void check_sky(const SceneTable& root, const std::vector<std::string>& light_ids
                 fmt::format("'model' = \"{}\" needs a light of type \"sun\" or \"directional\" to follow",
                             text(sky, "model")));
     }
+}
+
+/// What is computed from where the sun stands arrives with occlusion; a gradient is light for speed.
+void complete_sky(SceneTable& sky) {
+    if (!sky.has("occlusion")) sky.set("occlusion", value_of(text(sky, "model") != "gradient"));
 }
 
 void check_size(const SceneDocument& document) {
@@ -268,6 +278,7 @@ void apply_rules(SceneDocument& document) {
     const std::vector<std::string> light_ids = unique_ids(root, "light", sources);
     merge_shadows(root, light_ids, sources);
     check_sky(root, light_ids, sources);
+    complete_sky(std::get<SceneTable>(root.find("sky")->value.data));
     check_frames(document, light_ids);
     check_stereo(document, mesh_ids, materials);
 }
