@@ -8,6 +8,7 @@
 #include "app/frame/glare_memory.h"
 #include "app/frame/lamp_pixels.h"
 #include "app/frame/shadow_memory.h"
+#include "app/frame/sun_hours.h"
 #include "app/frame/tile.h"
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
@@ -28,7 +29,7 @@ std::int64_t picture_bytes(const RenderSettings& render, const FrameOptions& wan
     const std::int64_t pixel = vector + code_bytes + (wanted.depth ? number : 0) +
                                (wanted.normal ? vector : 0) + (wanted.albedo ? vector : 0) +
                                (wanted.object ? number : 0) + (wanted.shadow ? number : 0) +
-                               (wanted.shift ? number : 0);
+                               (wanted.shift ? number : 0) + (wanted.sun_hours ? number : 0);
     return std::int64_t{render.width} * render.height * pixel;
 }
 
@@ -54,6 +55,14 @@ std::int64_t allocator_bytes(std::int64_t held) {
 
 double mib(std::int64_t bytes) {
     return static_cast<double>(bytes) / (1 << 20);
+}
+
+/// Hours of sun come after the picture, whose codes are not there yet.
+std::int64_t hours_bytes(const Scene& scene, const MeshSize& mesh, const FrameOptions& wanted) {
+    const Light* sun = wanted.sun_hours ? sun_with_path(scene) : nullptr;
+    if (sun == nullptr) return 0;
+    return picture_bytes(scene.render, wanted) + sun_hours_sums_bytes(scene.render) +
+           sun_hours_pass_bytes(mesh, sun->path->steps) + sun_hours_tiles_bytes(mesh, sun->path->steps);
 }
 
 }  // namespace
@@ -88,7 +97,8 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         picture_bytes(wide, known.channels) +
         glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px);
     e.frame = prepared_bytes(mesh, wide) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
-              exact_tiles_bytes(lights, scene.sky) + std::max(making, making / 4 + picture);
+              exact_tiles_bytes(lights, scene.sky) +
+              std::max({making, making / 4 + picture, making / 4 + hours_bytes(scene, mesh, known.channels)});
     e.frame += allocator_bytes(e.total() - dense);
     return e;
 }

@@ -37,6 +37,8 @@ std::string type_text(const KeySpec& key) {
             return "a number or three numbers";
         case KeyType::date_time:
             return "a date and time";
+        case KeyType::time_of_day:
+            return "a string \"HH:MM\"";
         case KeyType::table:
             return fmt::format("a table [{}]", key.name);
         case KeyType::table_list:
@@ -176,6 +178,17 @@ SceneValue checked_date_time(const KeySpec& key, const SceneValue& value, const 
     return value;
 }
 
+SceneValue checked_time_of_day(const KeySpec& key, const SceneValue& value, const Sources& sources) {
+    const auto* text = std::get_if<std::string>(&value.data);
+    if (text == nullptr) wrong_type(key, value, sources);
+    if (!parse_time_of_day(*text)) {
+        fail_at(value.place, sources,
+                fmt::format("'{}' must be a time of day {}, not {}", key.name, allowed_text(key),
+                            found_text(value)));
+    }
+    return value;
+}
+
 SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sources& sources);
 
 /// [key.NAME] tables, and the keys beside them.
@@ -280,6 +293,8 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
             return checked_list(key, value, sources);
         case KeyType::date_time:
             return checked_date_time(key, value, sources);
+        case KeyType::time_of_day:
+            return checked_time_of_day(key, value, sources);
         case KeyType::table:
         case KeyType::table_list:
             return checked_tables(key, value, sources);
