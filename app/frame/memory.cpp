@@ -57,12 +57,10 @@ double mib(std::int64_t bytes) {
     return static_cast<double>(bytes) / (1 << 20);
 }
 
-/// Hours of sun come after the picture, whose codes are not there yet.
-std::int64_t hours_bytes(const Scene& scene, const MeshSize& mesh, const FrameOptions& wanted) {
+/// Suns that hours of sun are counted of, with or without sun; none: not wanted.
+int suns_of(const Scene& scene, const FrameOptions& wanted) {
     const Light* sun = wanted.sun_hours ? sun_with_path(scene) : nullptr;
-    if (sun == nullptr) return 0;
-    return picture_bytes(scene.render, wanted) + sun_hours_sums_bytes(scene.render) +
-           sun_hours_pass_bytes(mesh, sun->path->steps) + sun_hours_tiles_bytes(mesh, sun->path->steps);
+    return sun != nullptr ? sun->path->steps : 0;
 }
 
 }  // namespace
@@ -88,17 +86,22 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
         maps |= light.shadow.method == ShadowMethod::map || light.shadow.method == ShadowMethod::compressed;
     }
-    e.shadow_maps += exact_casters_bytes(mesh, lights) + soft_passes_bytes(mesh, lights, scene.sky, wide);
+    // Hours of sun come after the picture, pass after pass as lights with a size do.
+    const int suns = suns_of(scene, known.channels);
+    e.shadow_maps +=
+        exact_casters_bytes(mesh, lights) +
+        std::max(soft_passes_bytes(mesh, lights, scene.sky, wide), sun_hours_pass_bytes(mesh, suns));
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
     const std::int64_t making =
         std::max(shadow_work_bytes(mesh, lights, wide), exact_work_bytes(mesh, lights, scene.sky));
     const std::int64_t picture =
         picture_bytes(wide, known.channels) +
-        glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px);
+        std::max(glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px),
+                 suns > 0 ? sun_hours_sums_bytes(scene.render) : 0);
     e.frame = prepared_bytes(mesh, wide) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
-              exact_tiles_bytes(lights, scene.sky) +
-              std::max({making, making / 4 + picture, making / 4 + hours_bytes(scene, mesh, known.channels)});
+              std::max(exact_tiles_bytes(lights, scene.sky), sun_hours_tiles_bytes(mesh, suns)) +
+              std::max(making, making / 4 + picture);
     e.frame += allocator_bytes(e.total() - dense);
     return e;
 }

@@ -106,10 +106,12 @@ std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight>
 }
 
 std::int64_t sun_hours_pass_bytes(const MeshSize& mesh, int steps) {
+    if (steps == 0) return 0;
     return sun_pass_bytes(mesh, steps) + setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles);
 }
 
 std::int64_t sun_hours_tiles_bytes(const MeshSize& mesh, int steps) {
+    if (steps == 0) return 0;
     return hardware_threads() * exact_tile_bytes(static_cast<std::size_t>(suns_together(mesh, steps)));
 }
 

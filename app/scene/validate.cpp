@@ -26,6 +26,7 @@ std::string type_text(const KeySpec& key) {
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
+        case KeyType::time_of_day:
             return "a string";
         case KeyType::size2:
             return "two integers [width, height]";
@@ -37,8 +38,6 @@ std::string type_text(const KeySpec& key) {
             return "a number or three numbers";
         case KeyType::date_time:
             return "a date and time";
-        case KeyType::time_of_day:
-            return "a string \"HH:MM\"";
         case KeyType::table:
             return fmt::format("a table [{}]", key.name);
         case KeyType::table_list:
@@ -155,8 +154,10 @@ SceneValue checked_text(const KeySpec& key, const SceneValue& value, const Sourc
         fail_at(value.place, sources,
                 fmt::format("'{}' must name a {}", key.name, key.folder ? "folder" : "file"));
     }
-    if (key.type == KeyType::choice &&
-        std::find(key.choices.begin(), key.choices.end(), *s) == key.choices.end()) {
+    const bool known = std::find(key.choices.begin(), key.choices.end(), *s) != key.choices.end();
+    const bool fits = key.type == KeyType::time_of_day ? parse_time_of_day(*s).has_value()
+                                                       : key.type != KeyType::choice || known;
+    if (!fits) {
         fail_at(value.place, sources,
                 fmt::format("'{}' must be {}, not \"{}\"{}", key.name, allowed_text(key),
                             s->size() <= 64 ? *s : s->substr(0, 61) + "...", hint(*s, key.choices)));
@@ -174,17 +175,6 @@ SceneValue checked_date_time(const KeySpec& key, const SceneValue& value, const 
     if (!key.range.contains(t->year)) {
         fail_at(value.place, sources,
                 fmt::format("'{}' must be {}, not {}", key.name, allowed_text(key), t->year));
-    }
-    return value;
-}
-
-SceneValue checked_time_of_day(const KeySpec& key, const SceneValue& value, const Sources& sources) {
-    const auto* text = std::get_if<std::string>(&value.data);
-    if (text == nullptr) wrong_type(key, value, sources);
-    if (!parse_time_of_day(*text)) {
-        fail_at(value.place, sources,
-                fmt::format("'{}' must be a time of day {}, not {}", key.name, allowed_text(key),
-                            found_text(value)));
     }
     return value;
 }
@@ -285,6 +275,7 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
+        case KeyType::time_of_day:
             return checked_text(key, value, sources);
         case KeyType::size2:
         case KeyType::vec2:
@@ -293,8 +284,6 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
             return checked_list(key, value, sources);
         case KeyType::date_time:
             return checked_date_time(key, value, sources);
-        case KeyType::time_of_day:
-            return checked_time_of_day(key, value, sources);
         case KeyType::table:
         case KeyType::table_list:
             return checked_tables(key, value, sources);

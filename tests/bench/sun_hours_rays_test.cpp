@@ -19,9 +19,10 @@ namespace obscura {
 namespace {
 
 TEST(SunHoursRays, OfATownAgreeStepByStep) {
-    const SceneDocument document = read_scene(OBSCURA_SOURCE_DIR "/scenes/sun_hours.toml",
-                                              {"render.size_px=[128, 72]", "render.samples=1",
-                                               "sky.occlusion=false", "light.sun.angular_diameter_deg=0"});
+    const SceneDocument document =
+        read_scene(OBSCURA_SOURCE_DIR "/scenes/sun_hours.toml",
+                   {"render.size_px=[128, 72]", "render.samples=1", "sky.occlusion=false",
+                    "light.sun.angular_diameter_deg=0", "mesh.town.triangles=60000"});
     const Scene scene = load_scene(document, FileAccess{document.folder, {}});
     const Light& sun = *sun_with_path(scene);
     const ExactRays rays(scene.mesh);
