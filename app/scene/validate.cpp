@@ -157,11 +157,10 @@ SceneValue checked_text(const KeySpec& key, const SceneValue& value, const Sourc
     const bool known = std::find(key.choices.begin(), key.choices.end(), *s) != key.choices.end();
     const bool fits = key.type == KeyType::time_of_day ? parse_time_of_day(*s).has_value()
                                                        : key.type != KeyType::choice || known;
-    if (!fits) {
+    if (!fits)
         fail_at(value.place, sources,
                 fmt::format("'{}' must be {}, not \"{}\"{}", key.name, allowed_text(key),
                             s->size() <= 64 ? *s : s->substr(0, 61) + "...", hint(*s, key.choices)));
-    }
     return value;
 }
 
