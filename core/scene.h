@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/image.h"
+#include "core/sun_path.h"
 #include "core/vec.h"
 
 namespace obscura {
@@ -70,8 +72,9 @@ struct Light {
                               ///< radiant intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
     double near_m = 0.05,
-           range_m = 100;        ///< with a position: shadow depth range; light ends smoothly at range_m
-    bool below_horizon = false;  ///< sun: contributes nothing
+           range_m = 100;         ///< with a position: shadow depth range; light ends smoothly at range_m
+    bool below_horizon = false;   ///< sun: contributes nothing
+    std::optional<SunPath> path;  ///< sun: its way over the day, which hours of sun are counted along
     // How large it is. Shadows of what is none are hard.
     double angular_diameter_deg = 0;  ///< directional, sun: full angle that it fills, uniformly bright
     double radius_m = 0;              ///< point, spot: of a ball that looks like a uniform disc from anywhere

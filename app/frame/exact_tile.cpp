@@ -118,10 +118,10 @@ void ExactTile::restore(int k, TileWork& work) const {
 }
 
 void ExactTile::darken(std::size_t light, int k, int first_row, float* visibility) const {
-    const std::uint32_t* lit = lit_.data() + light * (room / 16);
+    const std::uint32_t* reached = lit(light);
     for (int i = 0; i < block_samples; ++i) {
         const int at = exact_point_index(k, count_, i % frame_tile_side, first_row + i / frame_tile_side);
-        const bool is_lit = (lit[at / 16] >> (at % 16) & 1u) != 0;
+        const bool is_lit = (reached[at / 16] >> (at % 16) & 1u) != 0;
         visibility[i] = is_lit ? visibility[i] : 0.0f;
     }
 }

@@ -39,6 +39,9 @@ class ExactTile {
     /// Width of the widest penumbra among the points, up to stop_px.
     float widest_penumbra(const ExactLight& light, const ExactSpread& spread, float stop_px, Isa isa);
 
+    /// Bits, as ExactPoints' masks, of the points that run() found the light to reach.
+    const std::uint32_t* lit(std::size_t light) const { return lit_.data() + light * (room / 16); }
+
     /// Puts 0 for those of a block's samples that the light does not reach: of the k-th sample, from
     /// first_row on.
     void darken(std::size_t light, int k, int first_row, float* visibility) const;

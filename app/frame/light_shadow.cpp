@@ -51,6 +51,7 @@ SceneLight shadow_part(SceneLight light) {
     static const SceneLight d;
     light.light.color = d.light.color;
     light.light.inner_cone_deg = d.light.inner_cone_deg;
+    light.light.path = d.light.path;
     light.shadow.max_magnification = d.shadow.max_magnification;  // has settled the resolution
     return light;
 }

@@ -6,6 +6,7 @@
 #include "app/frame/exact_tile.h"
 #include "app/frame/needed_texels.h"
 #include "app/frame/soft_light.h"
+#include "app/frame/sun_hours.h"
 #include "app/frame/surface_light.h"
 #include "core/parallel.h"
 #include "hierarchy/build_memory.h"
@@ -108,6 +109,20 @@ std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight>
             most = std::max(most, is_parallel(light.light.kind) ? disc_bytes(mesh, light, render) : own);
     }
     return most + (sends_on(sky) ? surface_light_bytes(mesh) : 0);
+}
+
+std::int64_t sun_hours_pass_bytes(const MeshSize& mesh, int steps) {
+    if (steps == 0) return 0;
+    return sun_pass_bytes(mesh, steps) + setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles);
+}
+
+std::int64_t sun_hours_tiles_bytes(const MeshSize& mesh, int steps) {
+    if (steps == 0) return 0;
+    return hardware_threads() * exact_tile_bytes(static_cast<std::size_t>(suns_together(mesh, steps)));
+}
+
+std::int64_t sun_hours_sums_bytes(const RenderSettings& render) {
+    return std::int64_t{render.width} * render.height * (sizeof(double) + sizeof(std::uint8_t));
 }
 
 int shadow_map_count(const SceneLight& light) {

@@ -1,5 +1,6 @@
 #include "app/report/render_stats.h"
 
+#include "app/frame/sun_hours_text.h"
 #include "app/scene/aov.h"
 
 namespace obscura {
@@ -49,6 +50,15 @@ void put_glare(JsonWriter& json, const GlareStats& s) {
     json.member("kernels", s.kernels).member("own_kernel_sources", s.own_kernel_sources);
     json.member("wavelengths", s.wavelengths).member("cycles_per_px", s.cycles_per_px);
     json.member("captured", s.captured).end_object();
+}
+
+void put_sun_hours(JsonWriter& json, const SunHoursStats& s) {
+    json.key("sun_hours").begin_object();
+    json.member("light", s.light).member("date", date_text(s.path));
+    json.member("steps", s.path.steps).member("suns", s.suns).member("passes", s.passes);
+    json.member("sunlit_h", s.sunlit_h()).member("order_s", s.order_s).member("total_s", s.total_s);
+    json.member("exact_samples", s.exact.samples).member("exact_groups", s.exact.groups);
+    json.member("exact_triangles", s.exact.triangles).end_object();
 }
 
 std::int64_t count(std::uint64_t n) {
@@ -115,6 +125,7 @@ std::string stats_json(const RenderReport& report) {
             put_light(json, light);
         json.end_list();
         if (frame.stats.glare) put_glare(json, *frame.stats.glare);
+        if (frame.stats.sun_hours) put_sun_hours(json, *frame.stats.sun_hours);
         json.key("files").begin_list();
         for (const WrittenFile& file : frame.files)
             put_file(json, file);

@@ -143,10 +143,16 @@ void check_triangles(const SceneDocument& document) {
 // --- frames and outputs
 
 void check_outputs(const SceneTable& root, int frames, const Sources& sources) {
+    const std::vector<const SceneTable*> lights = subtables(root, "light");
+    const bool has_sun = std::any_of(lights.begin(), lights.end(), [](const SceneTable* light) {
+        return light_kind_of(*light).kind == LightKind::sun;
+    });
     std::vector<std::filesystem::path> files;
     for (const SceneTable* output : subtables(root, "output")) {
         const Place place = place_of(*output, "file");
         const std::filesystem::path path(text(*output, "file"));
+        if (text(*output, "aov") == "sun_hours" && !has_sun)
+            fail_at(place_of(*output, "aov"), sources, "'aov' = \"sun_hours\" needs a light of type \"sun\"");
         if (path.extension() != ".png" && path.extension() != ".pfm") {
             fail_at(place, sources, "'file' must end in .png or .pfm");
         }
