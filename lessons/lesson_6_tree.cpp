@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "hierarchy/decode.h"
-#include "hierarchy/shadow_tree.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
 #include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/tree_scene.h"

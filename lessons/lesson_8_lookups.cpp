@@ -19,6 +19,7 @@
 #include "core/parallel.h"
 #include "filters/shadow_lookup.h"
 #include "hierarchy/build.h"
+#include "hierarchy/codes/codes.h"
 #include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/seen_surfaces.h"

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/stopwatch.h"
 #include "hierarchy/build_memory.h"
+#include "hierarchy/codes/codes.h"
 
 namespace obscura {
 namespace {

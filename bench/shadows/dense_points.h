@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "hierarchy/query.h"
+#include "hierarchy/codes/query.h"
 
 namespace obscura {
 

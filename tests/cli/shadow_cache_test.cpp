@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "hierarchy/tree_file.h"
+#include "hierarchy/codes/tree_file.h"
 #include "tests/cli/program.h"
 #include "tests/report/json_reader.h"
 

@@ -10,6 +10,7 @@
 #include "app/frame/scene_light.h"
 #include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
+#include "hierarchy/codes/codes.h"
 #include "raster/depth_tile.h"
 #include "raster/view.h"
 #include "scenes/generators.h"

@@ -7,7 +7,8 @@
 #include <bit>
 
 #include "app/frame/scene_light.h"
-#include "hierarchy/decode.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
 #include "raster/view.h"
 #include "tests/filters/tree_pcf_samples.h"
 #include "tests/frame/scenes.h"

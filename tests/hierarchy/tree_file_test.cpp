@@ -10,9 +10,10 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "hierarchy/decode.h"
-#include "hierarchy/tree_file.h"
-#include "hierarchy/tree_file_format.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
+#include "hierarchy/codes/tree_file.h"
+#include "hierarchy/codes/tree_file_format.h"
 #include "hierarchy/tree_units.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/fuzz/tree_fuzz.h"

@@ -9,9 +9,10 @@
 #include <random>
 
 #include "core/isa.h"
-#include "hierarchy/decode.h"
-#include "hierarchy/query.h"
-#include "hierarchy/tree_step.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
+#include "hierarchy/codes/query.h"
+#include "hierarchy/codes/tree_step.h"
 #include "raster/interval_map.h"
 #include "raster/view.h"
 #include "tests/hierarchy/tree_oracle.h"
@@ -187,18 +188,18 @@ TEST(Query, APathVisitsOnlyWhatIsNew) {
     const Image<DepthInterval> map = random_intervals(9, 64);
     const MultiresTree tree = build_bottom_up(map.view());
     const ShadowTree code = encode_tree(tree, {});
-    using Units = TreeUnits<TreeLayout::words24>;
+    using Code = MhCode<TreeLayout::words24>;
     TreePath path;
-    start_path<Units>(code.code, path);
-    extend_path<Units>(code.code, 21, 40, 0, path);
+    start_path<Code>(code.code, path);
+    extend_path<Code>(code.code, 21, 40, 0, path);
     const int first = path.steps;
     EXPECT_GT(first, 3);
     EXPECT_LE(first, 6);
-    extend_path<Units>(code.code, 21, 40, 0, path);
+    extend_path<Code>(code.code, 21, 40, 0, path);
     EXPECT_EQ(path.steps, first) << "the same texel costs nothing";
-    extend_path<Units>(code.code, 20, 40, 0, path);
+    extend_path<Code>(code.code, 20, 40, 0, path);
     EXPECT_LE(path.steps, first + 1) << "a sibling costs a step at most";
-    extend_path<Units>(code.code, 21, 40, 6, path);
+    extend_path<Code>(code.code, 21, 40, 6, path);
     EXPECT_LE(path.steps, first + 1) << "the root is known";
 }
 
