@@ -31,6 +31,21 @@ constexpr int max_top_levels = 12;
 /// The codes. Their numbers stand in files; what they can do is in hierarchy/codes/codes.h.
 enum class ShadowCode : std::uint32_t { mh = 0, mmh = 1 };
 
+struct ShadowCodeName {
+    ShadowCode code;
+    const char* name;  ///< in scene files
+};
+inline constexpr ShadowCodeName shadow_code_names[] = {{ShadowCode::mh, "mh"}, {ShadowCode::mmh, "mmh"}};
+constexpr int shadow_code_count = static_cast<int>(sizeof shadow_code_names / sizeof shadow_code_names[0]);
+
+/// Of a code that is one.
+constexpr const char* name_of(ShadowCode code) {
+    int i = 0;
+    while (i + 1 < shadow_code_count && shadow_code_names[i].code != code)
+        ++i;
+    return shadow_code_names[i].name;
+}
+
 /// How a code writes its nodes. words16, words24, bytes16: mh; fractions, float_bits: mmh.
 enum class TreeLayout : std::uint32_t {
     words16 = 0,

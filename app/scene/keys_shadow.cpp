@@ -75,10 +75,15 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "
                 "across its shorter direction, anywhere in the picture. 1 when not given.")
                 .in({0.01, 100})),
-        word_row_if_given(
-            &ShadowSettings::layout, tree_layout_words.all, "layout",
-            "Compressed: how nodes are written. bytes16 is about a tenth smaller and slower to look up, "
-            "words16 about as large as words24. \"words24\" when not given."),
+        word_row_if_given(&ShadowSettings::code, shadow_code_words.all, "code",
+                          "Compressed: how the tree is written. mh: by itself. mmh: parts of it that can be "
+                          "one are, which takes "
+                          "a third to six tenths off and longer to make, and the same time to look up. "
+                          "\"mh\" when not given."),
+        word_row_if_given(&ShadowSettings::layout, tree_layout_words.all, "layout",
+                          "Compressed, code \"mh\": how nodes are written. bytes16 is about a tenth smaller "
+                          "and slower to look up, "
+                          "words16 about as large as words24. \"words24\" when not given."),
         key_row_if_given(
             &ShadowSettings::top_levels,
             integer_key(

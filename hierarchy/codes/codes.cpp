@@ -9,8 +9,8 @@
 namespace obscura {
 
 const ShadowCodeRow shadow_codes[shadow_code_count] = {
-    {ShadowCode::mh, "mh", false, node_construction_bytes, encode_mh, mh_fault_of, mh_text},
-    {ShadowCode::mmh, "mmh", true, mmh_construction_bytes, encode_mmh, mmh_fault_of, mmh_text},
+    {ShadowCode::mh, false, node_construction_bytes, encode_mh, mh_fault_of, mh_text},
+    {ShadowCode::mmh, true, mmh_construction_bytes, encode_mmh, mmh_fault_of, mmh_text},
 };
 
 const ShadowCodeRow* find_code(ShadowCode code) {

@@ -3,7 +3,7 @@
 //
 // A code has four verbs: encode, look up in lanes, check what a file holds, describe itself. Three are here;
 // looking up is inlined into kernels, so its row stands in codes/tree_step.h and codes/tree_lanes.h. A new
-// code is a folder beside mh/ and mmh/, a number in tree_code.h, a row here and one there.
+// code is a folder beside mh/ and mmh/, a number and a name in tree_code.h, a row here and one there.
 
 #include <cstdint>
 #include <string>
@@ -17,9 +17,8 @@ namespace obscura {
 
 struct ShadowCodeRow {
     ShadowCode code;
-    const char* name;              ///< in scene files
-    bool wants_intervals;          ///< MultiresTree::intervals must be there: see BuildParams::keep_intervals
-    std::int64_t most_node_bytes;  ///< that one node takes, from its construction to its bytes
+    bool wants_intervals;  ///< MultiresTree::intervals must be there: see BuildParams::keep_intervals
+    std::int64_t node_construction_bytes;  ///< that one node takes at most, until its bytes are written
     ShadowTree (*encode)(const MultiresTree& tree, const LightView& view, const EncodeParams& params);
     /// What is wrong with a tree from outside, or null: then no lookup leaves its bytes or finds other than
     /// depths in [0, 1].
@@ -27,7 +26,6 @@ struct ShadowCodeRow {
     std::string (*text)(const ShadowTree& tree);  ///< one line on what it came to
 };
 
-constexpr int shadow_code_count = 2;
 extern const ShadowCodeRow shadow_codes[shadow_code_count];
 
 /// Null: no such code.

@@ -17,6 +17,7 @@
 #include "hierarchy/tree_units.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/fuzz/tree_fuzz.h"
+#include "tests/hierarchy/code_cases.h"
 #include "tests/hierarchy/tree_samples.h"
 
 namespace obscura {
@@ -27,6 +28,12 @@ constexpr TreeFileKey key{0x0123456789abcdefu, 42};
 ShadowTree small_tree(TreeLayout layout = TreeLayout::words24, int top = 1) {
     return encode_tree(build_bottom_up(random_interval_map(4, 8).view()), any_view(3), {layout, top});
 }
+
+/// In any code; of sixteen texels a side, so that there is something to merge.
+ShadowTree small_tree(const CodeCase& c, int top = 1) {
+    return encode_tree(build_bottom_up(random_interval_map(4, 16).view()), any_view(4), params_of(c, top));
+}
+constexpr CodeCase merged_case = code_cases[3], merged_bits_case = code_cases[4];
 
 std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);
@@ -54,15 +61,17 @@ TEST(TreeFile, GivesBackWhatWasWritten) {
     std::vector<ShadowTree> trees;
     std::vector<MultiresTree> sources;
     for (const TreeSample& sample : tree_samples()) {
-        for (const TreeLayout layout : {TreeLayout::words16, TreeLayout::words24, TreeLayout::bytes16}) {
+        for (const CodeCase& c : code_cases) {
+            // Built from the top down, nodes have no intervals.
+            if (row_of(c.code).wants_intervals && sample.tree.intervals.size() != sample.tree.nodes.size())
+                continue;
             LightView view = any_view(sample.tree.levels);
             view.to_map.m[1][2] = 0.1 * static_cast<double>(trees.size());
             view.perspective = trees.size() % 2 == 1;
             view.near_w = 0.25;
             view.max_depth = 0.75f;
-            trees.push_back(
-                encode_tree(sample.tree, view, {layout, std::min(2, sample.tree.levels), 6, 1e9}));
-            sources.push_back(sample.tree);
+            trees.push_back(encode_tree(sample.tree, view, params_of(c, std::min(2, sample.tree.levels), 6)));
+            sources.push_back(tree_behind(trees.back(), sample.tree));
         }
     }
     write_tree_file(folder.path / "trees", trees, key);
@@ -82,6 +91,8 @@ TEST(TreeFile, GivesBackWhatWasWritten) {
         EXPECT_EQ(a.view.near_w, b.view.near_w);
         EXPECT_EQ(a.view.min_depth, b.view.min_depth);
         EXPECT_EQ(a.view.max_depth, b.view.max_depth);
+        EXPECT_EQ(a.code.code, b.code.code);
+        EXPECT_EQ(a.code.layout, b.code.layout);
         EXPECT_EQ(a.counts, b.counts);
         EXPECT_EQ(a.bytes, b.bytes);
         EXPECT_EQ(a.padding_bytes, b.padding_bytes);
@@ -154,8 +165,9 @@ TEST(TreeFile, SaysWhatIsWrong) {
 }
 
 TEST(TreeFile, RefusesEveryAlteredByteAndEveryLength) {
-    const std::vector<std::uint8_t> good = file_of({small_tree(), small_tree(TreeLayout::bytes16)});
-    ASSERT_LT(good.size(), 4000u);
+    const std::vector<std::uint8_t> good = file_of({small_tree(), small_tree(TreeLayout::bytes16),
+                                                    small_tree(merged_case), small_tree(merged_bits_case)});
+    ASSERT_LT(good.size(), 8000u);
     EXPECT_TRUE(try_trees(good, false));
     std::vector<std::uint8_t> bytes = good;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -286,8 +298,8 @@ TEST(TreeFile, CraftedFilesLeadNoLookupOutside) {
     // Random damage under right checksums: refused, or harmless. Run under sanitizers to see it fail.
     std::mt19937 rng(11);
     int read = 0, refused = 0;
-    for (const TreeLayout layout : {TreeLayout::words16, TreeLayout::words24, TreeLayout::bytes16}) {
-        const std::vector<std::uint8_t> good = file_of({small_tree(layout), small_tree(layout, 0)});
+    for (const CodeCase& c : code_cases) {
+        const std::vector<std::uint8_t> good = file_of({small_tree(c), small_tree(c, 0)});
         for (int round = 0; round < 4000; ++round) {
             std::vector<std::uint8_t> bytes = good;
             for (int change = 0; change <= round % 4; ++change) {
@@ -301,6 +313,117 @@ TEST(TreeFile, CraftedFilesLeadNoLookupOutside) {
     }
     EXPECT_GT(read, 100);
     EXPECT_GT(refused, 1000);
+}
+
+// --- merged trees ---------------------------------------------------------------------------------------
+
+TEST(TreeFile, RefusesCraftedMergedTrees) {
+    const ShadowTree tree = small_tree(merged_case), bits = small_tree(merged_bits_case);
+    const auto unchanged = [](TreeRecord&, std::uint8_t*) {};
+    EXPECT_EQ(crafted(tree, unchanged), "accepted");
+    EXPECT_EQ(crafted(bits, unchanged), "accepted");
+
+    const auto other_code = [](TreeRecord& record, std::uint8_t*) { record.code = 0; };
+    EXPECT_EQ(crafted(tree, other_code), "shadow tree 0: has an unknown layout");
+    const auto no_code = [](TreeRecord& record, std::uint8_t*) { record.code = 77; };
+    EXPECT_EQ(crafted(tree, no_code), "shadow tree 0: has an unknown code");
+    const auto mh_layout = [](TreeRecord& record, std::uint8_t*) { record.layout = 1; };
+    EXPECT_EQ(crafted(tree, mh_layout), "shadow tree 0: has an unknown layout");
+    const auto far_away = [](TreeRecord&, std::uint8_t* units) {
+        set_word(units, 0, word_at(units, 0) | 0xffffff00u);
+    };
+    EXPECT_EQ(crafted(tree, far_away), "shadow tree 0: children lie outside the tree");
+    // A loop needs an offset of nothing: they are never negative.
+    const auto own_child = [](TreeRecord& record, std::uint8_t*) { record.offset_scale[4] = 0; };
+    EXPECT_EQ(crafted(tree, own_child), "shadow tree 0: children do not follow their parent");
+    const auto loop = [](TreeRecord&, std::uint8_t* units) { set_word(units, 0, word_at(units, 0) & 0xffu); };
+    EXPECT_EQ(crafted(tree, loop), "shadow tree 0: children do not follow their parent");
+    const auto too_low = [](TreeRecord& record, std::uint8_t*) {
+        record.levels = record.top_levels = 2;
+        record.width = record.height = 4;
+    };
+    EXPECT_EQ(crafted(tree, too_low), "shadow tree 0: an inner node at the height of texels");
+    const auto miscounted = [](TreeRecord& record, std::uint8_t*) { ++record.leaf; };
+    EXPECT_EQ(crafted(tree, miscounted), "shadow tree 0: the number of nodes is not the one stated");
+    const auto padded = [](TreeRecord& record, std::uint8_t*) { record.padding_bytes += 4; };
+    EXPECT_EQ(crafted(tree, padded), "shadow tree 0: has other padding than stated");
+    const auto half_word = [](TreeRecord& record, std::uint8_t*) { record.bytes -= 2; };
+    EXPECT_NE(crafted(tree, half_word), "accepted");
+
+    // Any fraction is a depth; not every word is the bits of one, nor every sum of differences.
+    const auto set_root = [](std::uint32_t value) {
+        return [=](TreeRecord&, std::uint8_t* units) { set_word(units, 1, value); };
+    };
+    EXPECT_EQ(crafted(tree, set_root(0xffffffffu)), "accepted");
+    for (const std::uint32_t value : {0x7fc00000u, 0x3f800001u, 0xffffffffu, 0x80000000u})
+        EXPECT_EQ(crafted(bits, set_root(value)), "shadow tree 0: a value is not a depth in [0, 1]") << value;
+}
+
+/// Twenty levels in which all four children of a node are full and share their children: 4^20 nodes in 200
+/// words.
+struct SharedTree {
+    std::vector<std::uint32_t> words = std::vector<std::uint32_t>(2 + 8 * 19 + 4);
+    ShadowTree tree;
+
+    SharedTree() {
+        words[0] = 0xffu | 2u << 8;
+        for (std::size_t level = 1; level < 20; ++level) {
+            for (std::size_t i = 0; i < 4; ++i) {
+                const std::size_t node = 2 + 8 * (level - 1) + 2 * i;
+                words[node] = (level < 19 ? 0xffu : 0x55u) | static_cast<std::uint32_t>(8 - 2 * i) << 8;
+                words[node + 1] = static_cast<std::uint32_t>(i) << 20;
+            }
+        }
+        tree.view = any_view(20);
+        tree.bytes = words.size() * 4;
+        tree.counts = {1 + 4 * 19, 0, 4};
+        tree.code.units = reinterpret_cast<const std::uint8_t*>(words.data());
+        tree.code.code = ShadowCode::mmh;
+        tree.code.layout = TreeLayout::fractions;
+        tree.code.levels = 20;
+        std::fill(std::begin(tree.code.offset_scale), std::end(tree.code.offset_scale), 1u);
+    }
+};
+
+TEST(TreeFile, LooksAtSharedChildrenOnce) {
+    const SharedTree shared;
+    EXPECT_TRUE(try_trees(file_of({shared.tree}), false));
+    EXPECT_EQ(tree_value(shared.tree.code, 0, 0), 0.0f);
+    // Child 3 at every level but the last, whose leaves are zero.
+    EXPECT_EQ(tree_value(shared.tree.code, 0xfffff, 0xfffff), 19 * 3 * 0x1p-12f);
+}
+
+TEST(TreeFile, RefusesSharedChildrenThatMeanDifferentThings) {
+    const auto fault = [](const auto& change) {
+        SharedTree shared;
+        change(shared);
+        const char* text = row_of(ShadowCode::mmh).fault_of(shared.tree);
+        return std::string(text == nullptr ? "sound" : text);
+    };
+    EXPECT_EQ(fault([](SharedTree&) {}), "sound");
+    const auto other_kinds = [](SharedTree& s) { s.words[4] = 0x7fu | 6u << 8; };
+    EXPECT_EQ(fault(other_kinds), "shared children are of different kinds");
+    // Overlapping: the second node's children begin one word further on.
+    const auto overlapping = [](SharedTree& s) { s.words[4] += 1u << 8; };
+    EXPECT_NE(fault(overlapping), "sound");
+    const auto leaves_below_texels = [](SharedTree& s) { s.words[2 + 8 * 18] = 0xffu | 8u << 8; };
+    EXPECT_NE(fault(leaves_below_texels), "sound");
+    // From a node of the root's group straight to the children of the next: one level higher, where scales
+    // differ.
+    const auto skipped = [](SharedTree& s) {
+        s.tree.code.levels = 20;
+        s.words[2] = 0xffu | 16u << 8;
+        s.tree.code.offset_scale[5] = 2;
+    };
+    EXPECT_NE(fault(skipped), "sound");
+    const auto unscaled = [](SharedTree& s) { s.words[2] = 0xffu | 16u << 8; };
+    EXPECT_EQ(fault(unscaled), "sound") << "sharing between levels is what offsets of words are for";
+    const auto beyond_one = [](SharedTree& s) {
+        s.tree.code.layout = TreeLayout::float_bits;
+        s.words[1] = 0x3f000000u;
+    };
+    // .5 and 19 times three steps of 2^20 in the bits are beyond one.
+    EXPECT_EQ(fault(beyond_one), "a value is not a depth in [0, 1]");
 }
 
 TEST(BulkHash, ChangesWithEveryBitAndLength) {

@@ -1,9 +1,8 @@
-// Lookups in serialised trees against the plain descent of the tree under construction, for every layout,
+// Lookups in serialised trees against the plain descent of the tree they stand for, for every code, layout,
 // level, instruction set, with and without a top grid.
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 #include <cstring>
 #include <random>
@@ -15,6 +14,7 @@
 #include "hierarchy/codes/tree_step.h"
 #include "raster/interval_map.h"
 #include "raster/view.h"
+#include "tests/hierarchy/code_cases.h"
 #include "tests/hierarchy/tree_oracle.h"
 #include "tests/raster/raster_solids.h"
 
@@ -106,43 +106,41 @@ void expect_lookups(const MultiresTree& tree, const TreeCode& code, std::size_t 
     }
 }
 
-class Layouts : public testing::TestWithParam<TreeLayout> {};
+class Codes : public testing::TestWithParam<CodeCase> {};
 
-TEST_P(Layouts, FindTheValuesOfThePlainDescentAtEveryLevel) {
+TEST_P(Codes, FindTheValuesOfThePlainDescentAtEveryLevel) {
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
         for (const Image<DepthInterval>& map : {scene_intervals(seed, 128), random_intervals(seed, 64)}) {
             const MultiresTree tree = build_bottom_up(map.view());
             for (const int offset_bits : {0, 9}) {
-                ShadowTree code = encode_tree(tree, {}, {GetParam(), 0, offset_bits, 1e9});
-                ASSERT_EQ(code.code.layout, GetParam());
-                expect_lookups(tree, code.code, 517, seed);
+                ShadowTree code = encode_tree(tree, {}, params_of(GetParam(), 0, offset_bits));
+                ASSERT_EQ(code.code.code, GetParam().code);
+                ASSERT_EQ(code.code.layout, GetParam().layout);
+                const MultiresTree behind = tree_behind(code, tree);
+                expect_lookups(behind, code.code, 517, seed);
                 for (const int top : {1, 4, tree.levels}) {
                     set_top_grid(code, top);
-                    expect_lookups(tree, code.code, 230, seed + 10);
+                    expect_lookups(behind, code.code, 230, seed + 10);
                 }
             }
         }
     }
 }
 
-TEST_P(Layouts, HoldTreesOfOneNodeAndMapsOfOneTexel) {
+TEST_P(Codes, HoldTreesOfOneNodeAndMapsOfOneTexel) {
     for (const int side : {1, 2, 64}) {
         const Image<DepthInterval> background(side, side, DepthInterval{0.25f, 0.5f});
         const MultiresTree tree = build_bottom_up(background.view());
-        ShadowTree code = encode_tree(tree, {}, {GetParam()});
+        ShadowTree code = encode_tree(tree, {}, params_of(GetParam()));
+        const MultiresTree behind = tree_behind(code, tree);
         for (const std::size_t count : {std::size_t{1}, std::size_t{16}, std::size_t{33}})
-            expect_lookups(tree, code.code, count, 5);
+            expect_lookups(behind, code.code, count, 5);
         set_top_grid(code, tree.levels);
-        expect_lookups(tree, code.code, 40, 6);
+        expect_lookups(behind, code.code, 40, 6);
     }
 }
-constexpr std::array<TreeLayout, tree_layout_count> all_layouts = [] {
-    std::array<TreeLayout, tree_layout_count> all{};
-    for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = tree_layouts[i].layout;
-    return all;
-}();
-INSTANTIATE_TEST_SUITE_P(Query, Layouts, testing::ValuesIn(all_layouts));
+INSTANTIATE_TEST_SUITE_P(Query, Codes, testing::ValuesIn(code_cases),
+                         [](const testing::TestParamInfo<CodeCase>& c) { return std::string(c.param.name); });
 
 TEST(Query, NoPointsAreNoWork) {
     const Image<DepthInterval> background(8, 8);
