@@ -61,7 +61,7 @@ const KeyRows<ShadowSettings>& shadow_rows() {
         word_row_if_given(
             &ShadowSettings::scope, shadow_scope_words, "scope",
             "Compressed: build what the frame's pixels look up, or everything, to be kept while only "
-            "the camera moves. \"full\" where there is a cache, else \"frame\"."),
+            "the camera moves. \"full\" where there is a cache or code = \"mmh\", else \"frame\"."),
         word_row_if_given(
             &ShadowSettings::filter, shadow_filter_words, "filter",
             "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
@@ -75,11 +75,11 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "
                 "across its shorter direction, anywhere in the picture. 1 when not given.")
                 .in({0.01, 100})),
-        word_row_if_given(&ShadowSettings::code, shadow_code_words.all, "code",
-                          "Compressed: how the tree is written. mh: by itself. mmh: parts of it that can be "
-                          "one are, which takes "
-                          "a third to six tenths off and longer to make, and the same time to look up. "
-                          "\"mh\" when not given."),
+        word_row_if_given(
+            &ShadowSettings::code, shadow_code_words.all, "code",
+            "Compressed: how the tree is written. mh: by itself. mmh, scope \"full\" alone: parts "
+            "of it that can be one are, which takes a third to six tenths off the bytes and "
+            "seconds to find; lookups read as many nodes. \"mh\" when not given."),
         word_row_if_given(&ShadowSettings::layout, tree_layout_words.all, "layout",
                           "Compressed, code \"mh\": how nodes are written. bytes16 is about a tenth smaller "
                           "and slower to look up, "

@@ -105,10 +105,16 @@ void complete_compressed(SceneTable& settings, const SceneEntry* cache, const So
     if (own_cache && frame) {
         fail_at(settings.find("cache")->place, sources, "'cache' needs scope = \"full\"");
     }
+    // What merged trees store depends on all that is in them: parts of one are no part of another.
+    const bool whole = settings.has("code") && text(settings, "code") != "mh";
+    if (whole && frame) {
+        fail_at(settings.find("code")->place, sources,
+                fmt::format("'code' = \"{}\" needs scope = \"full\"", text(settings, "code")));
+    }
     // A cache for all lights is none for those that say scope = "frame".
     if (frame) settings.erase("cache");
     set_default(settings, "resolution", value_of("auto"));
-    set_default(settings, "scope", value_of(settings.has("cache") ? "full" : "frame"));
+    set_default(settings, "scope", value_of(settings.has("cache") || whole ? "full" : "frame"));
     set_default(settings, "filter", value_of("pcf"));
     const bool automatic = std::holds_alternative<std::string>(settings.find("resolution")->value.data);
     if (automatic) {

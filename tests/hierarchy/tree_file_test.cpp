@@ -17,34 +17,10 @@
 #include "hierarchy/tree_units.h"
 #include "tests/core/temporary_folder.h"
 #include "tests/fuzz/tree_fuzz.h"
-#include "tests/hierarchy/code_cases.h"
-#include "tests/hierarchy/tree_samples.h"
+#include "tests/hierarchy/crafted_tree_file.h"
 
 namespace obscura {
 namespace {
-
-constexpr TreeFileKey key{0x0123456789abcdefu, 42};
-
-ShadowTree small_tree(TreeLayout layout = TreeLayout::words24, int top = 1) {
-    return encode_tree(build_bottom_up(random_interval_map(4, 8).view()), any_view(3), {layout, top});
-}
-
-/// In any code; of sixteen texels a side, so that there is something to merge.
-ShadowTree small_tree(const CodeCase& c, int top = 1) {
-    return encode_tree(build_bottom_up(random_interval_map(4, 16).view()), any_view(4), params_of(c, top));
-}
-constexpr CodeCase merged_case = code_cases[3], merged_bits_case = code_cases[4];
-
-std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::vector<std::uint8_t> file_of(const std::vector<ShadowTree>& trees) {
-    const TemporaryFolder folder;
-    write_tree_file(folder.path / "trees", trees, key);
-    return bytes_of(folder.path / "trees");
-}
 
 std::string refusal(const std::filesystem::path& path) {
     try {
@@ -184,33 +160,6 @@ TEST(TreeFile, RefusesEveryAlteredByteAndEveryLength) {
 
 // --- files with right checksums -------------------------------------------------------------------------
 
-/// Applies `change` to the record and the words of the only tree, seals the file and reads it.
-template <class Change>
-std::string crafted(const ShadowTree& tree, const Change& change) {
-    std::vector<std::uint8_t> bytes = file_of({tree});
-    TreeRecord record;
-    std::memcpy(&record, bytes.data() + sizeof(TreeFileHeader), sizeof record);
-    change(record, bytes.data() + record.first_byte);
-    std::memcpy(bytes.data() + sizeof(TreeFileHeader), &record, sizeof record);
-    seal_tree_file(bytes);
-    try {
-        read_tree_file(bytes, nullptr, "crafted");
-    } catch (const InputError& error) {
-        return error.message;
-    }
-    return "accepted";
-}
-
-std::uint32_t word_at(const std::uint8_t* units, std::size_t i) {
-    std::uint32_t word;
-    std::memcpy(&word, units + 4 * i, 4);
-    return word;
-}
-
-void set_word(std::uint8_t* units, std::size_t i, std::uint32_t word) {
-    std::memcpy(units + 4 * i, &word, 4);
-}
-
 TEST(TreeFile, RefusesCraftedTrees) {
     const ShadowTree tree = small_tree();
     const auto unchanged = [](TreeRecord&, std::uint8_t*) {};
@@ -268,7 +217,7 @@ TEST(TreeFile, ReadsFilesOfBefore) {
         EXPECT_TRUE(try_trees(bytes_of(entry.path()), false));
         ++files;
     }
-    EXPECT_EQ(files, 9);
+    EXPECT_EQ(files, 11);
 }
 
 TEST(TreeFile, RefusesTreesThatShareChildren) {
@@ -313,117 +262,6 @@ TEST(TreeFile, CraftedFilesLeadNoLookupOutside) {
     }
     EXPECT_GT(read, 100);
     EXPECT_GT(refused, 1000);
-}
-
-// --- merged trees ---------------------------------------------------------------------------------------
-
-TEST(TreeFile, RefusesCraftedMergedTrees) {
-    const ShadowTree tree = small_tree(merged_case), bits = small_tree(merged_bits_case);
-    const auto unchanged = [](TreeRecord&, std::uint8_t*) {};
-    EXPECT_EQ(crafted(tree, unchanged), "accepted");
-    EXPECT_EQ(crafted(bits, unchanged), "accepted");
-
-    const auto other_code = [](TreeRecord& record, std::uint8_t*) { record.code = 0; };
-    EXPECT_EQ(crafted(tree, other_code), "shadow tree 0: has an unknown layout");
-    const auto no_code = [](TreeRecord& record, std::uint8_t*) { record.code = 77; };
-    EXPECT_EQ(crafted(tree, no_code), "shadow tree 0: has an unknown code");
-    const auto mh_layout = [](TreeRecord& record, std::uint8_t*) { record.layout = 1; };
-    EXPECT_EQ(crafted(tree, mh_layout), "shadow tree 0: has an unknown layout");
-    const auto far_away = [](TreeRecord&, std::uint8_t* units) {
-        set_word(units, 0, word_at(units, 0) | 0xffffff00u);
-    };
-    EXPECT_EQ(crafted(tree, far_away), "shadow tree 0: children lie outside the tree");
-    // A loop needs an offset of nothing: they are never negative.
-    const auto own_child = [](TreeRecord& record, std::uint8_t*) { record.offset_scale[4] = 0; };
-    EXPECT_EQ(crafted(tree, own_child), "shadow tree 0: children do not follow their parent");
-    const auto loop = [](TreeRecord&, std::uint8_t* units) { set_word(units, 0, word_at(units, 0) & 0xffu); };
-    EXPECT_EQ(crafted(tree, loop), "shadow tree 0: children do not follow their parent");
-    const auto too_low = [](TreeRecord& record, std::uint8_t*) {
-        record.levels = record.top_levels = 2;
-        record.width = record.height = 4;
-    };
-    EXPECT_EQ(crafted(tree, too_low), "shadow tree 0: an inner node at the height of texels");
-    const auto miscounted = [](TreeRecord& record, std::uint8_t*) { ++record.leaf; };
-    EXPECT_EQ(crafted(tree, miscounted), "shadow tree 0: the number of nodes is not the one stated");
-    const auto padded = [](TreeRecord& record, std::uint8_t*) { record.padding_bytes += 4; };
-    EXPECT_EQ(crafted(tree, padded), "shadow tree 0: has other padding than stated");
-    const auto half_word = [](TreeRecord& record, std::uint8_t*) { record.bytes -= 2; };
-    EXPECT_NE(crafted(tree, half_word), "accepted");
-
-    // Any fraction is a depth; not every word is the bits of one, nor every sum of differences.
-    const auto set_root = [](std::uint32_t value) {
-        return [=](TreeRecord&, std::uint8_t* units) { set_word(units, 1, value); };
-    };
-    EXPECT_EQ(crafted(tree, set_root(0xffffffffu)), "accepted");
-    for (const std::uint32_t value : {0x7fc00000u, 0x3f800001u, 0xffffffffu, 0x80000000u})
-        EXPECT_EQ(crafted(bits, set_root(value)), "shadow tree 0: a value is not a depth in [0, 1]") << value;
-}
-
-/// Twenty levels in which all four children of a node are full and share their children: 4^20 nodes in 200
-/// words.
-struct SharedTree {
-    std::vector<std::uint32_t> words = std::vector<std::uint32_t>(2 + 8 * 19 + 4);
-    ShadowTree tree;
-
-    SharedTree() {
-        words[0] = 0xffu | 2u << 8;
-        for (std::size_t level = 1; level < 20; ++level) {
-            for (std::size_t i = 0; i < 4; ++i) {
-                const std::size_t node = 2 + 8 * (level - 1) + 2 * i;
-                words[node] = (level < 19 ? 0xffu : 0x55u) | static_cast<std::uint32_t>(8 - 2 * i) << 8;
-                words[node + 1] = static_cast<std::uint32_t>(i) << 20;
-            }
-        }
-        tree.view = any_view(20);
-        tree.bytes = words.size() * 4;
-        tree.counts = {1 + 4 * 19, 0, 4};
-        tree.code.units = reinterpret_cast<const std::uint8_t*>(words.data());
-        tree.code.code = ShadowCode::mmh;
-        tree.code.layout = TreeLayout::fractions;
-        tree.code.levels = 20;
-        std::fill(std::begin(tree.code.offset_scale), std::end(tree.code.offset_scale), 1u);
-    }
-};
-
-TEST(TreeFile, LooksAtSharedChildrenOnce) {
-    const SharedTree shared;
-    EXPECT_TRUE(try_trees(file_of({shared.tree}), false));
-    EXPECT_EQ(tree_value(shared.tree.code, 0, 0), 0.0f);
-    // Child 3 at every level but the last, whose leaves are zero.
-    EXPECT_EQ(tree_value(shared.tree.code, 0xfffff, 0xfffff), 19 * 3 * 0x1p-12f);
-}
-
-TEST(TreeFile, RefusesSharedChildrenThatMeanDifferentThings) {
-    const auto fault = [](const auto& change) {
-        SharedTree shared;
-        change(shared);
-        const char* text = row_of(ShadowCode::mmh).fault_of(shared.tree);
-        return std::string(text == nullptr ? "sound" : text);
-    };
-    EXPECT_EQ(fault([](SharedTree&) {}), "sound");
-    const auto other_kinds = [](SharedTree& s) { s.words[4] = 0x7fu | 6u << 8; };
-    EXPECT_EQ(fault(other_kinds), "shared children are of different kinds");
-    // Overlapping: the second node's children begin one word further on.
-    const auto overlapping = [](SharedTree& s) { s.words[4] += 1u << 8; };
-    EXPECT_NE(fault(overlapping), "sound");
-    const auto leaves_below_texels = [](SharedTree& s) { s.words[2 + 8 * 18] = 0xffu | 8u << 8; };
-    EXPECT_NE(fault(leaves_below_texels), "sound");
-    // From a node of the root's group straight to the children of the next: one level higher, where scales
-    // differ.
-    const auto skipped = [](SharedTree& s) {
-        s.tree.code.levels = 20;
-        s.words[2] = 0xffu | 16u << 8;
-        s.tree.code.offset_scale[5] = 2;
-    };
-    EXPECT_NE(fault(skipped), "sound");
-    const auto unscaled = [](SharedTree& s) { s.words[2] = 0xffu | 16u << 8; };
-    EXPECT_EQ(fault(unscaled), "sound") << "sharing between levels is what offsets of words are for";
-    const auto beyond_one = [](SharedTree& s) {
-        s.tree.code.layout = TreeLayout::float_bits;
-        s.words[1] = 0x3f000000u;
-    };
-    // .5 and 19 times three steps of 2^20 in the bits are beyond one.
-    EXPECT_EQ(fault(beyond_one), "a value is not a depth in [0, 1]");
 }
 
 TEST(BulkHash, ChangesWithEveryBitAndLength) {
