@@ -100,22 +100,77 @@ TEST(MergedTreeFile, RefusesSharedChildrenThatMeanDifferentThings) {
     EXPECT_NE(fault(overlapping), "sound");
     const auto leaves_below_texels = [](SharedTree& s) { s.words[2 + 8 * 18] = 0xffu | 8u << 8; };
     EXPECT_NE(fault(leaves_below_texels), "sound");
-    // From a node of the root's group straight to the children of the next: one level higher, where scales
-    // differ.
-    const auto skipped = [](SharedTree& s) {
-        s.tree.code.levels = 20;
-        s.words[2] = 0xffu | 16u << 8;
-        s.tree.code.offset_scale[5] = 2;
+    // The last node of the root's group points past one level, so that what is below stands higher on that
+    // way: where scales differ, its offsets would mean something else there.
+    const auto skipped = [](SharedTree& s) { s.words[2 + 6] = 0xffu | 10u << 8; };
+    EXPECT_EQ(fault(skipped), "sound") << "sharing between levels is what offsets of words are for";
+    const auto scaled = [&](SharedTree& s) {
+        s.tree.code.offset_scale[2] = 2;
+        for (std::size_t i = 0; i < 4; ++i)
+            s.words[2 + 8 * 17 + 2 * i] = 0xffu | static_cast<std::uint32_t>(4 - i) << 8;
     };
-    EXPECT_NE(fault(skipped), "sound");
-    const auto unscaled = [](SharedTree& s) { s.words[2] = 0xffu | 16u << 8; };
-    EXPECT_EQ(fault(unscaled), "sound") << "sharing between levels is what offsets of words are for";
+    EXPECT_EQ(fault(scaled), "sound");
+    const auto both = [&](SharedTree& s) {
+        skipped(s);
+        scaled(s);
+    };
+    EXPECT_EQ(fault(both), "shared children have different scales");
     const auto beyond_one = [](SharedTree& s) {
         s.tree.code.layout = TreeLayout::float_bits;
         s.words[1] = 0x3f000000u;
     };
     // .5 and 19 times three steps of 2^20 in the bits are beyond one.
     EXPECT_EQ(fault(beyond_one), "a value is not a depth in [0, 1]");
+}
+
+/// What is wrong with a tree of these words and nodes.
+std::string fault_of_words(const std::vector<std::uint32_t>& words, int levels, const MultiresCounts& counts,
+                           std::uint64_t padding_bytes = 0) {
+    ShadowTree tree;
+    tree.view = any_view(levels);
+    tree.bytes = words.size() * 4;
+    tree.padding_bytes = padding_bytes;
+    tree.counts = counts;
+    tree.code.units = reinterpret_cast<const std::uint8_t*>(words.data());
+    tree.code.code = ShadowCode::mmh;
+    tree.code.layout = TreeLayout::fractions;
+    tree.code.levels = levels;
+    std::fill(std::begin(tree.code.offset_scale), std::end(tree.code.offset_scale), 1u);
+    const char* fault = row_of(ShadowCode::mmh).fault_of(tree);
+    return fault == nullptr ? "sound" : fault;
+}
+constexpr std::uint32_t node_word(std::uint32_t kinds, std::uint32_t offset) {
+    return kinds | offset << 8;
+}
+
+TEST(MergedTreeFile, RefusesSharedChildrenTooLowForTheirHeight) {
+    // Root, two nodes a, b; c below b; d below a, and below c, if that may be; a leaf below d.
+    const std::vector<std::uint32_t> words{node_word(0x0f, 2),
+                                           0,
+                                           node_word(0x03, 6),
+                                           0,
+                                           node_word(0x03, 2),
+                                           0,
+                                           node_word(0x03, 2),
+                                           0,
+                                           node_word(0x01, 2),
+                                           0,
+                                           0};
+    EXPECT_EQ(fault_of_words(words, 4, {5, 0, 1}), "sound");
+    EXPECT_EQ(fault_of_words(words, 3, {5, 0, 1}), "an inner node at the height of texels");
+}
+
+TEST(MergedTreeFile, RefusesGroupsThatOverlap) {
+    // Four leaves each, the second's one word behind the first's.
+    std::vector<std::uint32_t> words{
+        node_word(0x0f, 2), 0, node_word(0x55, 4), 0, node_word(0x55, 3), 0, 0, 0, 0, 0, 0};
+    const MultiresCounts counts{3, 0, 8};
+    const std::uint64_t missing = 0 - std::uint64_t{3 * 4};
+    for (const std::uint64_t padding : {std::uint64_t{0}, missing})
+        EXPECT_EQ(fault_of_words(words, 2, counts, padding), "has other padding than stated");
+    words[4] = node_word(0x55, 2);
+    words.pop_back();
+    EXPECT_EQ(fault_of_words(words, 2, {3, 0, 4}), "sound") << "shared whole";
 }
 
 }  // namespace
