@@ -1,5 +1,5 @@
 #pragma once
-// Bare lookups in a dense map, for comparison with those in trees (hierarchy/query.h). POD: kernels include
+// Bare lookups in a dense map, for comparison with those in trees (hierarchy/codes/query.h). POD: kernels include
 // this.
 
 #include <cstdint>
