@@ -1,6 +1,6 @@
 #pragma once
-// Bare lookups in a dense map, for comparison with those in trees (hierarchy/codes/query.h). POD: kernels include
-// this.
+// Bare lookups in a dense map, for comparison with those in trees (hierarchy/codes/query.h). POD: kernels
+// include this.
 
 #include <cstdint>
 
