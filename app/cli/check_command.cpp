@@ -78,6 +78,7 @@ std::string texel_text(const SceneLight& light, const Scene& scene) {
 std::string tree_text(const SceneLight& light) {
     const ShadowSettings& s = light.shadow;
     std::string out = s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
+    if (s.code != ShadowCode::mh) out += fmt::format(" as {}", name_of(s.code));
     if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
     return out + (s.filter == ShadowFilter::pcf ? "" : ", filtered hierarchically");
 }

@@ -13,7 +13,7 @@
 #include "app/scene/file_access.h"
 #include "app/scene/scene.h"
 #include "core/isa.h"
-#include "hierarchy/tree_file.h"
+#include "hierarchy/codes/tree_file.h"
 #include "raster/surface.h"
 
 namespace obscura {

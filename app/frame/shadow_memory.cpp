@@ -10,7 +10,7 @@
 #include "app/frame/surface_light.h"
 #include "core/parallel.h"
 #include "hierarchy/build_memory.h"
-#include "hierarchy/tree_code.h"
+#include "hierarchy/codes/codes.h"
 #include "raster/exact/casters.h"
 #include "raster/exact/soft_casters.h"
 #include "raster/gbuffer.h"
@@ -168,7 +168,7 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
         most = std::max(most, squares);
         // One view's tree at a time.
         const std::int64_t nodes = built_nodes(light, render) / std::max(shadow_map_count(light), 1);
-        work = std::max(work, construction_bytes(mesh) + nodes * node_construction_bytes);
+        work = std::max(work, construction_bytes(mesh) + nodes * row_of(s.code).node_construction_bytes);
     }
     return lists + std::max(work, most * 2 * word_bytes);
 }

@@ -46,7 +46,10 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
     stats.resolution = light.shadow.resolution;
     stats.views = shadow_view_count(light.light.kind);
     stats.found = found;
-    if (light.shadow.method == ShadowMethod::compressed) stats.scope = light.shadow.scope;
+    if (light.shadow.method == ShadowMethod::compressed) {
+        stats.scope = light.shadow.scope;
+        stats.code = light.shadow.code;
+    }
     return stats;
 }
 

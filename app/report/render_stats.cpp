@@ -81,6 +81,7 @@ void put_light(JsonWriter& json, const LightShadowStats& s) {
     }
     if (s.method == ShadowMethod::compressed) {
         const BuildStats& b = s.build;
+        json.member("code", name_of(s.code));
         json.member("scope", s.scope == ShadowScope::frame ? "frame" : "full");
         json.member("from_cache", s.from_cache).member("needed", s.needed);
         json.member("nodes_full", count(s.nodes.full)).member("nodes_empty", count(s.nodes.empty));

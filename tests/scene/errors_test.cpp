@@ -157,6 +157,12 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:8:17: 'layout' must be one of \"words24\", \"words16\", \"bytes16\", not \"words32\"; did "
          "you "
          "mean 'words24'?"},
+        {"UnknownCode", light(directional + "shadow.code = \"dag\""),
+         "s.toml:8:15: 'code' must be one of \"mh\", \"mmh\", not \"dag\""},
+        {"LayoutOfMergedTrees", light(directional + "shadow = {code = \"mmh\", layout = \"words16\"}"),
+         "s.toml:8:33: 'layout' needs code = \"mh\""},
+        {"PartsOfMergedTrees", light(directional + "shadow = {code = \"mmh\", scope = \"frame\"}"),
+         "s.toml:8:18: 'code' = \"mmh\" needs scope = \"full\""},
         {"TopLevels", light(directional + "shadow.top_levels = 11"),
          "s.toml:8:21: 'top_levels' must be in [0, 10], not 11"},
         {"NoMagnification", light(directional + "shadow.max_magnification = 0"),
