@@ -79,6 +79,6 @@ class ExactTilePool {
 };
 
 /// Bytes of one tile's.
-std::int64_t exact_tile_bytes(std::size_t lights, bool sent);
+std::int64_t exact_tile_bytes(std::size_t lights, bool sent = false);
 
 }  // namespace obscura
