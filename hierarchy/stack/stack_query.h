@@ -7,7 +7,8 @@
 //   lit    where the point lies before the near plane, or outside of the map;
 //   else dark where D <= 0: the face looks away;
 //   else lit where the depth of the receiver's own plane at the middle of the texel, but not more than the
-//   receiver's, less what rounding may have moved it, is at most what the octree stores for that texel.
+//   receiver's, less what rounding may have moved it, nor than 1, where there is only background, is at most
+//   what the octree stores for that texel.
 //
 // lit_of_subset: the paper's way (Scandolo, Bauszat, Eisemann 2016, section 4): one lookup in each of
 // `samples` equal shares of the maps, where the point's pattern says.

@@ -98,8 +98,7 @@ Seen see(const Receiver& p, const SliceRange& range, std::int32_t size) {
                           1.0f / lane_max(d[0], stack_least_cosine)};
 
     const float g0 = p.h * r[0], g1 = p.h * r[1];
-    const float near_z = lane_min(p.top - p.per_m * lane_max(g0, g1), 1.0f);
-    const float far_z = lane_min(p.top - p.per_m * lane_min(g0, g1), 1.0f);
+    const float near_z = p.top - p.per_m * lane_max(g0, g1), far_z = p.top - p.per_m * lane_min(g0, g1);
     float slope_x[2], slope_y[2], error[2];
     for (int k = 0; k < 2; ++k) {
         slope_x[k] = (std::fabs(p.steep_a) * r[k]) * inv[k];
@@ -108,8 +107,8 @@ Seen see(const Receiver& p, const SliceRange& range, std::int32_t size) {
             (((p.off * (r[k] * r[k])) * inv[k]) + stack_snap * (slope_x[k] + slope_y[k])) + stack_depth_error;
     }
     // From the middle of a texel to a place in it are at most half a texel each way.
-    s.nearest = (near_z - error[1]) - (slope_x[1] * 0.5f + slope_y[1] * 0.5f);
-    s.deepest = far_z - error[0];
+    s.nearest = lane_min((near_z - error[1]) - (slope_x[1] * 0.5f + slope_y[1] * 0.5f), 1.0f);
+    s.deepest = lane_min(far_z - error[0], 1.0f);
     return s;
 }
 
@@ -119,13 +118,14 @@ float compared_depth(const Receiver& p, const SliceRange& map, const Seen& s) {
     const float d = (p.nh - p.na * (map.sigma_x[0] + map.tau[0] * s.x[0])) -
                     p.nb * (map.sigma_y[0] + map.tau[0] * s.y[0]);
     const float inv = 1.0f / lane_max(d, stack_least_cosine);
-    const float z = lane_min(p.top - p.per_m * (p.h * r), 1.0f);
+    const float z = p.top - p.per_m * (p.h * r);
     const float slope_x = (p.steep_a * r) * inv, slope_y = (p.steep_b * r) * inv;
     const float error = (((p.off * (r * r)) * inv) + stack_snap * (std::fabs(slope_x) + std::fabs(slope_y))) +
                         stack_depth_error;
     const float to_middle_x = (static_cast<float>(s.ix[0]) + 0.5f) - s.x[0],
                 to_middle_y = (static_cast<float>(s.iy[0]) + 0.5f) - s.y[0];
-    return (z - error) + lane_min(slope_x * to_middle_x + slope_y * to_middle_y, 0.0f);
+    // Beyond the casters' range there is only background, at depth 1; the plane may come back from there.
+    return lane_min((z - error) + lane_min(slope_x * to_middle_x + slope_y * to_middle_y, 0.0f), 1.0f);
 }
 
 /// Where a descent stands.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "hierarchy/stack/encode.h"
 #include "tests/hierarchy/tree_compare.h"
@@ -150,7 +151,7 @@ TEST(StackQuery, TexelsAndDepthsAreThoseOfTheViews) {
                 clear = clear && std::fabs(area) > 1e-6;
                 const double sx = (aq.z * ar.y - ar.z * aq.y) / area, sy = (ar.z * aq.x - aq.z * ar.x) / area;
                 const double rise = sx * (0.5 - fx) + sy * (0.5 - fy);
-                const double depth = std::min(at.z, 1.0) + std::min(rise, 0.0);
+                const double depth = std::min(at.z + std::min(rise, 0.0), 1.0);
                 const float stored = stack_value(stack.code, static_cast<unsigned>(at.x),
                                                  static_cast<unsigned>(at.y), static_cast<unsigned>(k));
                 clear = clear && std::fabs(depth - static_cast<double>(stored)) >
@@ -163,6 +164,61 @@ TEST(StackQuery, TexelsAndDepthsAreThoseOfTheViews) {
         }
         EXPECT_GT(compared, 1500);
         EXPECT_EQ(wrong, 0) << "of " << compared << ", lamp " << static_cast<int>(lamp);
+    }
+}
+
+/// Casters that are thin and stand alone: whatever they shade lies far beyond the range of depths that their
+/// maps have. Points below are dark or lit as a ray says, however steep their surface; those above are lit.
+TEST(StackQuery, ReceiversFarBeyondTheCastersAreShadedAsRaysSay) {
+    Mesh mesh;
+    solids::add(mesh, solids::shifted(box({6, 0.02, 6}), {1, 4, -1}));
+    std::mt19937 rng(17);
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * (static_cast<double>(rng()) / 4294967296.0);
+    };
+    for (const Lamp lamp : {Lamp::level, Lamp::tilted, Lamp::sun}) {
+        const LightSamples samples = lit::samples_of(lamp, 16);
+        StackBuildParams params;
+        params.tree.anisotropies = {0};
+        const ShadowStack stack =
+            build_stack(mesh, focused_views(mesh, samples, lit::focus(256)), params, Exec{});
+        lit::Points points;
+        std::vector<int> expected;
+        for (int i = 0; expected.size() < 6000; ++i) {
+            const double y = i % 3 == 0 ? uniform(4.1, 9) : i % 3 == 1 ? uniform(-3, 3.5) : -uniform(3, 300);
+            const Vec3d aim{uniform(-3.5, 5.5), 4, uniform(-5.5, 3.5)};
+            const Vec3d middle = samples.at[samples.at.size() / 2];
+            const Vec3d way = samples.directional ? middle : normalize(aim - middle);
+            const Vec3d p = aim + way * ((y - aim.y) / way.y);
+            const Vec3d n =
+                normalize(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)} * uniform(0, 3) - way);
+            // Where a texel's border or the surface's own horizon may decide, nothing is known.
+            int count = 0;
+            bool clear = true;
+            for (const Vec3d& sample : samples.at) {
+                const Vec3d l = samples.directional ? -sample : sample - p;
+                clear = clear && (y > 4 || dot(n, normalize(l)) > 0.02);
+                const Vec3d at = p + l * ((4 - p.y) / l.y);
+                const double beside = std::max(std::fabs(at.x - 1), std::fabs(at.z + 1)) - 3;
+                clear = clear && std::fabs(beside) > 0.15;
+                count += y > 4 || beside > 0 ? 1 : 0;
+            }
+            if (!clear) continue;
+            points.add(p, n, 0);
+            expected.push_back(count);
+        }
+        const StackLookup lookup = stack_lookup(stack, {0, 0, 0});
+        for (const Isa isa : {Isa::ref, best_isa()}) {
+            StackWork work;
+            const auto lit = all_of(lookup, points.view(), isa, work);
+            int wrong = 0, dark = 0;
+            for (std::size_t i = 0; i < lit.size(); ++i) {
+                wrong += lit[i] != expected[i];
+                dark += expected[i] == 0;
+            }
+            EXPECT_EQ(wrong, 0) << "lamp " << static_cast<int>(lamp) << ", " << isa_name(isa);
+            EXPECT_GT(dark, 1000);
+        }
     }
 }
 
