@@ -63,11 +63,17 @@ struct StackWork {
     std::uint64_t lookups = 0;  ///< runs of maps (or single maps) that were asked, a point at a time
 };
 
-/// lit[i] = how many samples reach point i: of all maps, or of `samples` (in [1, slices]) of them. Adds to
+constexpr std::int32_t most_stack_parts = 64;
+
+/// lit[i] = how many samples reach point i: of all maps, or of `samples` (in [1, slices]) of them.
+/// lit_of_parts: of each of `parts` equal runs of maps, lit[part * points.count + i], at the same steps; a
+/// power of two, at most most_stack_parts and 2^slice_levels, as many as which are a map each. All add to
 /// `work`.
 #define OBSCURA_STACK_QUERIES                                                                                \
     void lit_samples(const StackLookup& stack, const StackPoints& points, std::uint16_t* lit,                \
                      StackWork& work) noexcept;                                                              \
+    void lit_of_parts(const StackLookup& stack, const StackPoints& points, std::int32_t parts,               \
+                      std::uint16_t* lit, StackWork& work) noexcept;                                         \
     void lit_of_subset(const StackLookup& stack, const StackPoints& points, int samples, std::uint16_t* lit, \
                        StackWork& work) noexcept;
 namespace ref {

@@ -107,6 +107,54 @@ TEST(StackQuery, EveryInstructionSetAgreesWithTheReference) {
     }
 }
 
+/// Of parts of the light: each asks its own maps, at the steps of all, and down to single maps.
+TEST(StackQuery, PartsOfTheLightAreRunsOfMaps) {
+    const Vec3d eye{1, 2, 3};
+    for (const auto& [lamp, slices] :
+         {std::pair{Lamp::level, 64}, {Lamp::tilted, 16}, {Lamp::sun, 64}, {Lamp::path, 39}}) {
+        const Mesh mesh = lit::scene(9, true);
+        const ShadowStack stack = build_stack(
+            mesh, focused_views(mesh, lit::samples_of(lamp, slices), lit::focus(128)), {}, Exec{});
+        const StackLookup lookup = stack_lookup(stack, eye);
+        const lit::Points points = lit::drawn_points(mesh, eye, 2001, 4);
+        const std::size_t count = points.view().count;
+        StackWork at_once;
+        const auto all = all_of(lookup, points.view(), Isa::ref, at_once);
+        for (const int parts : {1, 4, 16, 64}) {
+            if (parts > 1 << stack.code.shape.slice_levels) continue;
+            std::vector<std::uint16_t> expected(count * static_cast<std::size_t>(parts), 7);
+            StackWork work;
+            ref::lit_of_parts(lookup, points.view(), parts, expected.data(), work);
+            EXPECT_EQ(work.nodes, at_once.nodes);
+            for (std::size_t i = 0; i < count; ++i) {
+                int sum = 0;
+                for (std::size_t part = 0; part < static_cast<std::size_t>(parts); ++part)
+                    sum += expected[part * count + i];
+                ASSERT_EQ(sum, all[i]) << parts;
+            }
+            for (const Isa isa : supported_isas()) {
+                std::vector<std::uint16_t> lit(expected.size(), 9);
+                StackWork own;
+                OBSCURA_DISPATCH(isa, lit_of_parts, lookup, points.view(), parts, lit.data(), own);
+                EXPECT_EQ(differences(lit, expected), 0u) << isa_name(isa) << ' ' << parts;
+                EXPECT_EQ(own.nodes, work.nodes);
+            }
+            if (parts != slices) continue;
+            // A map each: as many of the first of them reach a point as one by one.
+            StackLookup some = lookup;
+            for (some.slices = 1; some.slices <= slices; some.slices += 9) {
+                const auto one_by_one = some_of(some, points.view(), some.slices, Isa::ref, work);
+                for (std::size_t i = 0; i < count; ++i) {
+                    int sum = 0;
+                    for (std::size_t k = 0; k < static_cast<std::size_t>(some.slices); ++k)
+                        sum += expected[k * count + i];
+                    ASSERT_EQ(sum, one_by_one[i]) << some.slices;
+                }
+            }
+        }
+    }
+}
+
 /// Lookups by the definition, in doubles and with the texels of the views themselves: where no texel's border
 /// and no depth is near, floats say the same.
 TEST(StackQuery, TexelsAndDepthsAreThoseOfTheViews) {
