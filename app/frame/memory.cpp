@@ -77,9 +77,10 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         const std::int64_t bytes = built_map_bytes(light, wide);
         e.shadow_maps += bytes;
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
-        maps |= light.shadow.method == ShadowMethod::map || light.shadow.method == ShadowMethod::compressed;
+        maps |= light.shadow.method != ShadowMethod::none && light.shadow.method != ShadowMethod::exact;
     }
-    e.shadow_maps += exact_casters_bytes(mesh, lights) + soft_passes_bytes(mesh, lights, scene.sky, wide);
+    e.shadow_maps += exact_casters_bytes(mesh, lights) + stacks_bytes(mesh, lights) +
+                     soft_passes_bytes(mesh, lights, scene.sky, wide);
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
     const std::int64_t making =

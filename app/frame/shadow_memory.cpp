@@ -6,6 +6,7 @@
 #include "app/frame/exact_tile.h"
 #include "app/frame/needed_texels.h"
 #include "app/frame/soft_light.h"
+#include "app/frame/stack_shadow.h"
 #include "core/parallel.h"
 #include "hierarchy/build_memory.h"
 #include "hierarchy/tree_code.h"
@@ -85,6 +86,13 @@ std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> 
     return any_exact(lights) || is_occluded(sky) ? casters_sorting_bytes(mesh.triangles) : 0;
 }
 
+std::int64_t stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+    std::int64_t bytes = 0;
+    for (const SceneLight& light : lights)
+        if (light.shadow.method == ShadowMethod::stack) bytes += stack_bytes(light, mesh.triangles);
+    return bytes;
+}
+
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sky) {
     if (!any_exact(lights) && !is_occluded(sky)) return 0;
     const bool soft = is_occluded(sky) || std::any_of(lights.begin(), lights.end(), is_soft);
@@ -111,13 +119,13 @@ int shadow_map_count(const SceneLight& light) {
 
 std::int64_t shadow_map_bytes(const SceneLight& light) {
     if (light.shadow.method == ShadowMethod::exact) return 0;
+    if (light.shadow.method == ShadowMethod::stack) return 0;  // see stacks_bytes()
     if (light.shadow.method == ShadowMethod::map)
         return dense_map_bytes(light.light.kind, light.shadow.resolution);
     return shadow_map_count(light) * expected_nodes(light.shadow) * node_bytes + top_bytes(light);
 }
 
 std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& render) {
-    if (light.shadow.method == ShadowMethod::exact) return 0;
     if (!builds_parts(light.shadow)) return shadow_map_bytes(light);
     return built_nodes(light, render) * node_bytes + top_bytes(light);
 }
@@ -140,6 +148,11 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
     std::int64_t lists = 0, most = 0, work = 0;
     for (const SceneLight& light : lights) {
         const ShadowSettings& s = light.shadow;
+        if (s.method == ShadowMethod::stack) {
+            // Maps are made side by side, by every thread with a setup of its own.
+            work = std::max(work, hardware_threads() * construction_bytes(mesh) +
+                                      stack_work_bytes(light, mesh.triangles));
+        }
         if (s.method != ShadowMethod::compressed) continue;
         const std::int64_t squares =
             builds_parts(s) ? expected_squares(s, shadow_map_count(light), render) : 0;
