@@ -27,10 +27,17 @@ constexpr std::int64_t node_work_bytes = 32 * tried, node_bytes = 5;
 /// Share of what a light may shine on that its maps need not see.
 constexpr double most_unseen = 1.0 / 8;
 
-/// Nodes of a stack, expected: of every map 100 for a texel of its side, one for a triangle where these are
-/// few (README.md has what scenes have).
+/// Texels a side, or the most that the picture may ask for.
+std::int64_t side_of(const SceneLight& light) {
+    return light.shadow.resolution == auto_resolution ? most_auto_stack_resolution : light.shadow.resolution;
+}
+
+/// Nodes of a stack, expected: of every map 100 for a texel of its side, or fewer where triangles are few
+/// (README.md has what scenes have).
 std::int64_t nodes_of(const SceneLight& light, std::int64_t triangles) {
-    return std::min(std::int64_t{100} * light.shadow.resolution, triangles) * light.shadow.samples;
+    constexpr std::int64_t sides = 2048;  // at which scenes have about one for a triangle
+    const std::int64_t side = side_of(light);
+    return std::min(100 * side, triangles * side / sides) * light.shadow.samples;
 }
 
 Vec3d middle_of(const Mesh& mesh, const Triangle& t) {
@@ -242,7 +249,10 @@ std::int64_t stack_bytes(const SceneLight& light, std::int64_t triangles) {
 }
 
 std::int64_t stack_work_bytes(const SceneLight& light, std::int64_t triangles) {
-    return nodes_of(light, triangles) * node_work_bytes;
+    // Beside octrees on their way, what texels of eight maps are certain of: 14 bytes where surfaces slope,
+    // taken for a sixteenth of them.
+    const std::int64_t side = side_of(light), maps = std::min(light.shadow.samples, 8);
+    return nodes_of(light, triangles) * node_work_bytes + side * side * maps * 14 / 16;
 }
 
 }  // namespace obscura

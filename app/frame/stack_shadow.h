@@ -52,7 +52,7 @@ std::string read_light_stack(const std::filesystem::path& file, const TreeFileKe
                              const FocusedViews& views, LightShadow& shadow);
 
 /// Expected bytes of a finished stack, and of what making it holds beside that, with so many triangles that
-/// cast shadows. None while its resolution is to be found.
+/// cast shadows. While its resolution is to be found, of the finest there may be.
 std::int64_t stack_bytes(const SceneLight& light, std::int64_t triangles);
 std::int64_t stack_work_bytes(const SceneLight& light, std::int64_t triangles);
 

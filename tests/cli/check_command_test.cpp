@@ -84,7 +84,7 @@ TEST(CheckCommand, StacksAreToldAdvisedAndRefusedAtTheirKey) {
     for (const char* line :
          {"light     lamp: area, a stack of 64 shadow maps of 512 x 512, aimed at a level plane: 12 "
           "triangles to "
-          "build 64 times, once, 1280 samples to look up a frame, all maps each; about 67.8 KiB, ",
+          "build 64 times, once, 1280 samples to look up a frame, all maps each; about 64.9 KiB, ",
           " more meanwhile\n          stack: as asked\n"})
         EXPECT_NE(told.find(line), std::string::npos) << told;
     EXPECT_EQ(told.find("note      light"), std::string::npos) << told;
