@@ -93,6 +93,17 @@ std::int64_t stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> ligh
     return bytes;
 }
 
+std::int64_t making_stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+    std::int64_t bytes = 0;
+    for (const SceneLight& light : lights) {
+        if (light.shadow.method != ShadowMethod::stack) continue;
+        // Maps are made side by side, by every thread with a setup of its own.
+        const std::int64_t setup = hardware_threads() * construction_bytes(mesh);
+        bytes = std::max(bytes, setup + stack_work_bytes(light, mesh.triangles));
+    }
+    return bytes;
+}
+
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sky) {
     if (!any_exact(lights) && !is_occluded(sky)) return 0;
     const bool soft = is_occluded(sky) || std::any_of(lights.begin(), lights.end(), is_soft);
@@ -145,14 +156,9 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
     // A word holds sixteen squares, of which a quarter are read; a code is one square. Codes of all lights
     // stay until their trees are made, and one light's words are there twice while they are sorted.
     constexpr std::int64_t word_bytes = sizeof(std::uint64_t) / 4, code_bytes = sizeof(std::uint64_t);
-    std::int64_t lists = 0, most = 0, work = 0;
+    std::int64_t lists = 0, most = 0, work = making_stacks_bytes(mesh, lights);
     for (const SceneLight& light : lights) {
         const ShadowSettings& s = light.shadow;
-        if (s.method == ShadowMethod::stack) {
-            // Maps are made side by side, by every thread with a setup of its own.
-            work = std::max(work, hardware_threads() * construction_bytes(mesh) +
-                                      stack_work_bytes(light, mesh.triangles));
-        }
         if (s.method != ShadowMethod::compressed) continue;
         const std::int64_t squares =
             builds_parts(s) ? expected_squares(s, shadow_map_count(light), render) : 0;
