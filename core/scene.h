@@ -3,13 +3,18 @@
 // colours are linear Rec. 709. How it is rendered stands with whoever does it (app/scene/scene.h has all).
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/image.h"
+#include "core/sun_path.h"
 #include "core/vec.h"
 
 namespace obscura {
+
+struct ImageSky;
 
 /// A decoded texture, linear-light RGB with its mip chain (level 0 first; each level halves, rounding up
 /// to 1; 2 x 2 box filter).
@@ -67,8 +72,9 @@ struct Light {
                               ///< radiant intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
     double near_m = 0.05,
-           range_m = 100;        ///< with a position: shadow depth range; light ends smoothly at range_m
-    bool below_horizon = false;  ///< sun: contributes nothing
+           range_m = 100;         ///< with a position: shadow depth range; light ends smoothly at range_m
+    bool below_horizon = false;   ///< sun: contributes nothing
+    std::optional<SunPath> path;  ///< sun: its way over the day, which hours of sun are counted along
     // How large it is. Shadows of what is none are hard.
     double angular_diameter_deg = 0;  ///< directional, sun: full angle that it fills, uniformly bright
     double radius_m = 0;              ///< point, spot: of a ball that looks like a uniform disc from anywhere
@@ -80,9 +86,9 @@ struct Light {
     friend bool operator==(const Light&, const Light&) = default;
 };
 
-/// gradient: a mix of colours. The others follow the sun: clear: computed from the air (core/sky); overcast:
-/// the standard one.
-enum class SkyKind { gradient, clear, overcast };
+/// gradient: a mix of colours. clear and overcast follow the sun: computed from the air (core/sky), and the
+/// standard one. image: a picture of all directions.
+enum class SkyKind { gradient, clear, overcast, image };
 
 /// The background, and the light that it sheds. The default is a gradient: a clear day under a sun of
 /// irradiance 3; the sky sheds about a quarter of that on level ground.
@@ -97,6 +103,8 @@ struct Sky {
     Vec3f ground_albedo{0.2f, 0.2f, 0.2f};  ///< clear, overcast
     bool occlusion = false;                 ///< false: it reaches every surface, whatever stands before
     int samples = 64;                       ///< occlusion: directions that stand for it, 16, 64, 256 or 1024
+    int bounces = 1;                        ///< occlusion: how often surfaces send on what arrives, 0 to 4
+    std::shared_ptr<const ImageSky> image;  ///< image
     std::string sun;  ///< the light that clear and overcast skies follow; empty: the first that may be
     // What follows from that light.
     double sun_azimuth_deg = 0, sun_elevation_deg = 45;

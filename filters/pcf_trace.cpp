@@ -30,17 +30,17 @@ float record_taps(const Kernel& kernel, bool clamp, std::int32_t last, Stored&& 
     });
 }
 
-template <class Units>
+template <class Code>
 PcfSteps count_steps(const PcfPlace& r, const PcfLight& light) {
     const TreeCode& tree = *light.view[r.view].tree;
     PcfSteps steps;
     TreePath path;
-    start_path<Units>(tree, path);
+    start_path<Code>(tree, path);
     filtered(r, light, [&](int level) {
         const Kernel kernel(r, light.side, level);
         const TreeTaps taps{kernel, tree, !light.directional};
-        naive_mean<Units>(taps, steps.naive);
-        return shared_mean<Units>(taps, path);
+        naive_mean<Code>(taps, steps.naive);
+        return shared_mean<Code>(taps, path);
     });
     steps.shared = path.steps;
     return steps;
@@ -48,8 +48,7 @@ PcfSteps count_steps(const PcfPlace& r, const PcfLight& light) {
 
 PcfSteps steps_of(const PcfPlace& r, const PcfLight& light) {
     if (!r.asks() || r.kind == PcfPlace::before_near || light.view[0].tree == nullptr) return {};
-    return with_layout(*light.view[r.view].tree,
-                       [&]<class Units>(Units) { return count_steps<Units>(r, light); });
+    return with_code(*light.view[r.view].tree, [&]<class Code>(Code) { return count_steps<Code>(r, light); });
 }
 
 }  // namespace
@@ -77,13 +76,13 @@ PcfTrace trace_pcf(const SurfaceBlock& surface, const PcfLight& light, int at) {
                 kernel, !light.directional, last,
                 [&](std::int32_t x, std::int32_t y) { return stored_texel(view, x, y); }, trace.taps);
         }
-        return with_layout(*view.tree, [&]<class Units>(Units) {
+        return with_code(*view.tree, [&]<class Code>(Code) {
             const TreeTaps taps{kernel, *view.tree, !light.directional};
             TreePath path;
-            start_path<Units>(*view.tree, path);
+            start_path<Code>(*view.tree, path);
             return record_taps(
                 kernel, !light.directional, last,
-                [&](std::int32_t x, std::int32_t y) { return value_along<Units>(taps, x, y, path); },
+                [&](std::int32_t x, std::int32_t y) { return value_along<Code>(taps, x, y, path); },
                 trace.taps);
         });
     });

@@ -7,7 +7,7 @@
 #include "filters/tree_pcf.h"
 
 #include "filters/pcf_lanes.h"
-#include "hierarchy/tree_lanes.h"
+#include "hierarchy/codes/tree_lanes.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {
@@ -71,18 +71,18 @@ OBSCURA_INLINE F32 mean(const Kernel16& k, Lit&& lit) {
 // --- naive -------------------------------------------------------------------------------------------------
 
 /// Every tap of every lane from the root; also for kernels that reach over the map's border.
-template <class Units>
+template <class Code>
 F32 naive_mean(const TreeCode& tree, bool clamp, const Kernel16& k, const Mask& active) {
-    const std::uint8_t* base = biased_units<Units>(tree);
+    const std::uint8_t* base = biased_units<Code>(tree);
     const std::int32_t last = (1 << (tree.levels - k.level)) - 1;
     return mean<0>(k, [&](int i, int j, const F32& depth) {
         const I32 x = k.x0 + splat(i), y = k.y0 + splat(j);
         const Mask inside = between(x, 0, last) & between(y, 0, last);
         const Mask asked = clamp ? active : active & inside;
-        Descents16 d = descents_from(tree_root<Units>(), asked);
-        descend_to<Units>(tree, base, tree.levels, k.level, shift_left(clamped(x, 0, last), k.level),
-                          shift_left(clamped(y, 0, last), k.level), d);
-        const Mask lit = less_equal(depth, values<Units>(base, d));
+        Descents16 d = descents_from(Code::root(tree), asked);
+        descend_to<Code>(tree, base, tree.levels, k.level, shift_left(clamped(x, 0, last), k.level),
+                         shift_left(clamped(y, 0, last), k.level), d);
+        const Mask lit = less_equal(depth, values(Code{}, tree, base, d));
         return clamp ? lit : lit | ~inside;
     });
 }
@@ -128,7 +128,7 @@ OBSCURA_INLINE bool decided(const Kernel16& k, const F32& least_stored, const F3
 
 /// The squares at the corners of all lanes' kernels, from one node of height `height` down to where kernels
 /// just fit. False when every lane's descents ended before.
-template <class Units>
+template <class Code>
 OBSCURA_INLINE bool descend_corners(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k,
                                     int side, int height, int stop, Descents16 (&corner)[2][2]) {
     const I32 x[2] = {k.x0, k.x0 + splat(side - 1)}, y[2] = {k.y0, k.y0 + splat(side - 1)};
@@ -152,7 +152,7 @@ OBSCURA_INLINE bool descend_corners(const TreeCode& tree, const std::uint8_t* ba
         for (int j = 0; j < rows; ++j) {
             for (int i = 0; i < columns; ++i) {
                 if (none(corner[j][i].inner)) continue;
-                descend<Units>(tree, base, height, child_bit(height - k.level, x[i], y[j]), corner[j][i]);
+                descend(Code{}, tree, base, height, child_bit(height - k.level, x[i], y[j]), corner[j][i]);
                 going_on = going_on || any(corner[j][i].inner);
             }
         }
@@ -170,7 +170,7 @@ OBSCURA_INLINE bool descend_corners(const TreeCode& tree, const std::uint8_t* ba
 
 /// One level: from `from`, squares of 2^(height + 1) counted from the kernels' first, to those of 2^height.
 /// Child c stands in parent c / 2, or in the next where the first child is the second of its parent.
-template <class Units, int n>
+template <class Code, int n>
 OBSCURA_INLINE void split_squares(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k,
                                   int height, int count, const Descents16 (&from)[n][n],
                                   Descents16 (&to)[n][n]) {
@@ -186,7 +186,7 @@ OBSCURA_INLINE void split_squares(const TreeCode& tree, const std::uint8_t* base
             Descents16 d = i % 2 == 0 ? row[i / 2] : select(odd_x, row[i / 2 + 1], row[i / 2]);
             if (any(d.inner)) {
                 const I32 bit_x = shift_left<1>((x + splat(i)) & splat(std::int32_t{1}));
-                descend<Units>(tree, base, k.level + height + 1, bit_x | bit_y, d);
+                descend(Code{}, tree, base, k.level + height + 1, bit_x | bit_y, d);
             }
             to[j][i] = d;
         }
@@ -194,13 +194,13 @@ OBSCURA_INLINE void split_squares(const TreeCode& tree, const std::uint8_t* base
 }
 
 /// Taps of kernels whose four corner squares are all that is to be known.
-template <class Units, int fixed>
-OBSCURA_INLINE F32 mean_of_corners(const std::uint8_t* base, const Kernel16& k, int fit,
+template <class Code, int fixed>
+OBSCURA_INLINE F32 mean_of_corners(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k, int fit,
                                    const Descents16 (&corner)[2][2], const Mask& active) {
     F32 value[2][2];
     for (int j = 0; j < 2; ++j) {
         for (int i = 0; i < 2; ++i)
-            value[j][i] = values<Units>(base, corner[j][i]);
+            value[j][i] = values(Code{}, tree, base, corner[j][i]);
     }
     const F32 least = min(min(value[0][0], value[0][1]), min(value[1][0], value[1][1]));
     const F32 greatest = max(max(value[0][0], value[0][1]), max(value[1][0], value[1][1]));
@@ -216,12 +216,12 @@ OBSCURA_INLINE F32 mean_of_corners(const std::uint8_t* base, const Kernel16& k, 
 }
 
 /// fixed: the kernel's side, or 0: k.side.
-template <class Units, int fixed>
+template <class Code, int fixed>
 F32 shared_mean(const TreeCode& tree, bool clamp, Kernel16& k, const Mask& active, TreePath& path) {
     const int side = fixed != 0 ? fixed : k.side;
     const std::int32_t high = (1 << (tree.levels - k.level)) - side;
     const Mask interior = between(k.x0, 0, high) & between(k.y0, 0, high);
-    if (!all(interior | ~active)) return naive_mean<Units>(tree, clamp, k, active);
+    if (!all(interior | ~active)) return naive_mean<Code>(tree, clamp, k, active);
 
     // Lanes that nobody asked about stand where the first of the others does.
     alignas(64) std::int32_t x[16], y[16];
@@ -236,20 +236,20 @@ F32 shared_mean(const TreeCode& tree, bool clamp, Kernel16& k, const Mask& activ
     const I32 apart = ((k.x0 ^ splat(x0)) | ((k.x0 + to_end) ^ splat(x0))) |
                       ((k.y0 ^ splat(y0)) | ((k.y0 + to_end) ^ splat(y0)));
     const int height = k.level + common_height(united_bits(apart));
-    const TopNode place = extend_path<Units>(tree, x0 << k.level, y0 << k.level, height, path);
+    const TopNode place = extend_path<Code>(tree, x0 << k.level, y0 << k.level, height, path);
     F32 visibility;
     if (place.node == no_tree_node || height == k.level) {
-        const F32 stored = splat(unit_value<Units>(tree, place.value));
+        const F32 stored = splat(Code::depth(tree, place));
         if (decided<fixed>(k, stored, stored, active, visibility)) return visibility;
         return mean<fixed>(k, [&](int, int, const F32& depth) { return less_equal(depth, stored); });
     }
 
-    const std::uint8_t* base = biased_units<Units>(tree);
+    const std::uint8_t* base = biased_units<Code>(tree);
     const int fit = fitting_height(side);
     Descents16 corner[2][2];
     corner[0][0] = descents_from(place, active);
-    if (!descend_corners<Units>(tree, base, k, side, height, k.level + fit, corner) || fit == 0) {
-        return mean_of_corners<Units, fixed>(base, k, fit, corner, active);
+    if (!descend_corners<Code>(tree, base, k, side, height, k.level + fit, corner) || fit == 0) {
+        return mean_of_corners<Code, fixed>(tree, base, k, fit, corner, active);
     }
     constexpr int most = fixed != 0 ? (fixed < 2 ? 2 : fixed) : max_side;
     Descents16 square[2][most][most];
@@ -259,43 +259,43 @@ F32 shared_mean(const TreeCode& tree, bool clamp, Kernel16& k, const Mask& activ
     }
     int now = 0;
     for (int h = fit - 1; h >= 0; --h) {
-        split_squares<Units>(tree, base, k, h, touched(side, h), square[now], square[1 - now]);
+        split_squares<Code>(tree, base, k, h, touched(side, h), square[now], square[1 - now]);
         now = 1 - now;
     }
     return mean<fixed>(k, [&](int i, int j, const F32& depth) {
-        return less_equal(depth, values<Units>(base, square[now][j][i]));
+        return less_equal(depth, values(Code{}, tree, base, square[now][j][i]));
     });
 }
 
 // --- levels and views --------------------------------------------------------------------------------------
 
-template <class Units>
+template <class Code>
 F32 mean_at_level(const TreeCode& tree, const PcfLight& light, const Receivers16& r, int level,
                   const Mask& active, TreePath* path) {
     const bool clamp = !light.directional;
     Kernel16 k;
     if (path == nullptr) {
         set_kernel<0>(r, light.side, level, k);
-        return naive_mean<Units>(tree, clamp, k, active);
+        return naive_mean<Code>(tree, clamp, k, active);
     }
     switch (light.side) {
         case 1:
             set_kernel<1>(r, 1, level, k);
-            return shared_mean<Units, 1>(tree, clamp, k, active, *path);
+            return shared_mean<Code, 1>(tree, clamp, k, active, *path);
         case 3:
             set_kernel<3>(r, 3, level, k);
-            return shared_mean<Units, 3>(tree, clamp, k, active, *path);
+            return shared_mean<Code, 3>(tree, clamp, k, active, *path);
         case 5:
             set_kernel<5>(r, 5, level, k);
-            return shared_mean<Units, 5>(tree, clamp, k, active, *path);
+            return shared_mean<Code, 5>(tree, clamp, k, active, *path);
         default:
             set_kernel<0>(r, light.side, level, k);
-            return shared_mean<Units, 0>(tree, clamp, k, active, *path);
+            return shared_mean<Code, 0>(tree, clamp, k, active, *path);
     }
 }
 
 /// Each lane between its two levels; lanes of one finer level go together.
-template <class Units>
+template <class Code>
 F32 mean_between_levels(const TreeCode& tree, const PcfLight& light, const Receivers16& r, const Mask& active,
                         TreePath* path) {
     const auto [fine, blend] = levels_of(r);
@@ -306,9 +306,9 @@ F32 mean_between_levels(const TreeCode& tree, const PcfLight& light, const Recei
         const std::int32_t level = fine_of[__builtin_ctz(left)];
         const Mask lanes_here = mask_of(left) & equal(fine, splat(level));
         const Mask blended = lanes_here & less(splat(0.0f), blend);
-        F32 seen = mean_at_level<Units>(tree, light, r, level, lanes_here, path);
+        F32 seen = mean_at_level<Code>(tree, light, r, level, lanes_here, path);
         if (any(blended)) {
-            const F32 coarse = mean_at_level<Units>(tree, light, r, level + 1, blended, path);
+            const F32 coarse = mean_at_level<Code>(tree, light, r, level + 1, blended, path);
             seen = select(blended, seen + (coarse - seen) * blend, seen);
         }
         visibility = select(lanes_here, seen, visibility);
@@ -320,9 +320,9 @@ F32 mean_between_levels(const TreeCode& tree, const PcfLight& light, const Recei
 /// path: where shared descents are kept; null: naive.
 F32 lookup(const TreeCode& tree, const PcfLight& light, const Receivers16& r, const Mask& active,
            TreePath* path) {
-    return with_layout(tree, [&]<class Units>(Units) {
-        return light.filter == PcfFilter::pcf ? mean_at_level<Units>(tree, light, r, 0, active, path)
-                                              : mean_between_levels<Units>(tree, light, r, active, path);
+    return with_code(tree, [&]<class Code>(Code) {
+        return light.filter == PcfFilter::pcf ? mean_at_level<Code>(tree, light, r, 0, active, path)
+                                              : mean_between_levels<Code>(tree, light, r, active, path);
     });
 }
 
@@ -332,7 +332,7 @@ void tree_pcf_block(const SurfaceBlock& surface, const PcfLight& light, float* v
     TreePath path[6];
     for (int view = 0; view < light.views; ++view) {
         const TreeCode& tree = *light.view[view].tree;
-        with_layout(tree, [&]<class Units>(Units) { start_path<Units>(tree, path[view]); });
+        with_code(tree, [&]<class Code>(Code) { start_path<Code>(tree, path[view]); });
     }
     for (int at = 0; at < block_samples; at += lanes) {
         store(visibility + at,

@@ -24,13 +24,13 @@ void tree_pcf_block(const SurfaceBlock& surface, const PcfLight& light, float* v
     TreePath path[6];
     for (int view = 0; view < light.views; ++view) {
         const TreeCode& tree = *light.view[view].tree;
-        with_layout(tree, [&]<class Units>(Units) { start_path<Units>(tree, path[view]); });
+        with_code(tree, [&]<class Code>(Code) { start_path<Code>(tree, path[view]); });
     }
     for (int at = 0; at < block_samples; ++at) {
         const PcfPlace r = pcf_place(surface, light, at);
-        visibility[at] = with_layout(*light.view[r.view].tree, [&]<class Units>(Units) {
-            return visibility_of(
-                r, light, [&](const TreeTaps& taps) { return shared_mean<Units>(taps, path[r.view]); });
+        visibility[at] = with_code(*light.view[r.view].tree, [&]<class Code>(Code) {
+            return visibility_of(r, light,
+                                 [&](const TreeTaps& taps) { return shared_mean<Code>(taps, path[r.view]); });
         });
     }
 }
@@ -39,9 +39,9 @@ void naive_tree_pcf_block(const SurfaceBlock& surface, const PcfLight& light, fl
     for (int at = 0; at < block_samples; ++at) {
         const PcfPlace r = pcf_place(surface, light, at);
         int steps = 0;
-        visibility[at] = with_layout(*light.view[r.view].tree, [&]<class Units>(Units) {
+        visibility[at] = with_code(*light.view[r.view].tree, [&]<class Code>(Code) {
             return visibility_of(r, light,
-                                 [&](const TreeTaps& taps) { return naive_mean<Units>(taps, steps); });
+                                 [&](const TreeTaps& taps) { return naive_mean<Code>(taps, steps); });
         });
     }
 }

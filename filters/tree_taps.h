@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "filters/pcf_place.h"
-#include "hierarchy/tree_step.h"
+#include "hierarchy/codes/tree_step.h"
 
 namespace obscura::ref {
 
@@ -24,22 +24,22 @@ struct TreeTaps {
 };
 
 /// Value of square (x, y) of the kernel's level, inside the map, by a descent along `path`.
-template <class Units>
+template <class Code>
 float value_along(const TreeTaps& taps, std::int32_t x, std::int32_t y, TreePath& path) {
     const int level = taps.kernel.level;
-    const TopNode place = extend_path<Units>(taps.tree, x << level, y << level, level, path);
-    return unit_value<Units>(taps.tree, place.value);
+    const TopNode place = extend_path<Code>(taps.tree, x << level, y << level, level, path);
+    return Code::depth(taps.tree, place);
 }
 
 /// Every tap from the root; adds the nodes visited to `steps`.
-template <class Units>
+template <class Code>
 float naive_mean(const TreeTaps& taps, int& steps) {
     return taps.kernel.mean([&](int i, int j) {
         const std::int32_t x = taps.x(i), y = taps.y(j);
         if (!taps.inside(x, y)) return true;
         TreePath path;
-        start_path<Units>(taps.tree, path);
-        const float stored = value_along<Units>(taps, x, y, path);
+        start_path<Code>(taps.tree, path);
+        const float stored = value_along<Code>(taps, x, y, path);
         steps += path.steps;
         return taps.kernel.depth_at(i, j) <= stored;
     });
@@ -47,17 +47,17 @@ float naive_mean(const TreeTaps& taps, int& steps) {
 
 /// The taps together to their lowest common node, then one after the other; the path, which may come from
 /// another kernel, counts the nodes visited.
-template <class Units>
+template <class Code>
 float shared_mean(const TreeTaps& taps, TreePath& path) {
     const Kernel& k = taps.kernel;
     const int end = k.side - 1;
     if (taps.all_inside()) {
         const std::int32_t x0 = taps.x(0), y0 = taps.y(0), x1 = taps.x(end), y1 = taps.y(end);
         const int height = k.level + common_height(static_cast<std::uint32_t>((x0 ^ x1) | (y0 ^ y1)));
-        const TopNode place = extend_path<Units>(taps.tree, x0 << k.level, y0 << k.level, height, path);
+        const TopNode place = extend_path<Code>(taps.tree, x0 << k.level, y0 << k.level, height, path);
         if (place.node == no_tree_node || height == k.level) {
             // One value for all taps: their extreme depths, which are at corners, may decide.
-            const float value = unit_value<Units>(taps.tree, place.value);
+            const float value = Code::depth(taps.tree, place);
             const float corner[4] = {k.depth_at(0, 0), k.depth_at(end, 0), k.depth_at(0, end),
                                      k.depth_at(end, end)};
             if (*std::max_element(corner, corner + 4) <= value) return 1.0f;
@@ -67,7 +67,7 @@ float shared_mean(const TreeTaps& taps, TreePath& path) {
     }
     return k.mean([&](int i, int j) {
         const std::int32_t x = taps.x(i), y = taps.y(j);
-        return !taps.inside(x, y) || k.depth_at(i, j) <= value_along<Units>(taps, x, y, path);
+        return !taps.inside(x, y) || k.depth_at(i, j) <= value_along<Code>(taps, x, y, path);
     });
 }
 

@@ -39,6 +39,7 @@ class Forest {
         for (const Node& node : nodes_)
             count += node.below ? node.below->nodes.size() : 0;
         all.nodes.reserve(count);
+        if constexpr (!Tree::keeps_detail) all.intervals.reserve(all.keeps_intervals ? count : 0);
         return harvest(0, all);
     }
 
@@ -152,8 +153,8 @@ class Forest {
             node.list = {};
             // As large as it must be: workers keep their room for the next square.
             node.below = std::make_unique<Tree>();
-            node.below->nodes.assign(worker->tree.nodes.begin(), worker->tree.nodes.end());
-            worker->tree.nodes.clear();
+            node.below->assign(worker->tree);
+            worker->tree.drop(0);
             node.trace = std::exchange(worker->trace, {});
         });
     }
@@ -171,7 +172,7 @@ class Forest {
             Part part = all.join(child);
             if (nodes_[i].site.value_only()) {
                 part.kinds = 0;
-                all.nodes.resize(mark);
+                all.drop(mark);
             }
             return part;
         }
@@ -228,12 +229,14 @@ typename Tree::Part build(const Mesh& mesh, const LightView& view, const BuildPa
 MultiresTree build_shadow_tree(const Mesh& mesh, const LightView& view, const BuildParams& params,
                                const Exec& exec, BuildStats* stats, const std::atomic<bool>* cancel) {
     MultiresBuilder<2> all;
+    all.keeps_intervals = params.keep_intervals;
     const auto root = build(mesh, view, params, exec, stats, cancel, all);
     MultiresTree tree;
     tree.levels = std::countr_zero(static_cast<unsigned>(view.width));
     tree.root = {stored_depth(root.interval), root.kinds, root.first_child};
     tree.root_interval = root.interval;
     tree.nodes = std::move(all.nodes);
+    tree.intervals = std::move(all.intervals);
     return tree;
 }
 

@@ -42,6 +42,7 @@ struct BuildParams {
     /// Trees of certain squares: detail below what is certain ends at squares of 2^detail_height texels a
     /// side.
     int detail_height = 0;
+    bool keep_intervals = false;   ///< MultiresTree::intervals
     bool mesh_certificate = true;  ///< false: only single planes decide squares, to see what the rest gains
     BuildTuning tuning;
     std::vector<BuildSquare>* trace = nullptr;  ///< receives every square that was visited, parents first

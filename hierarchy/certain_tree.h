@@ -100,6 +100,8 @@ class CertainBuilder {
     Part join(const Part (&child)[4]);
     /// Appends another builder's groups; returns what to add to its parts' first_child.
     std::uint64_t append(const CertainBuilder& other);
+    void drop(std::size_t mark) { nodes.resize(mark); }
+    void assign(const CertainBuilder& other) { nodes.assign(other.nodes.begin(), other.nodes.end()); }
 
     std::vector<CertainGroup> nodes;
 };

@@ -99,10 +99,10 @@ ScaleChoice search(const std::vector<FamilyOf<children>>& families, std::uint64_
 /// Calls visit(family) for each node of `parents`.
 template <int children, class Visit>
 void for_each_family(const KindUnits& units, std::span<const KindWord<children>> parents,
-                     std::span<const std::uint32_t> blocks, const Visit& visit) {
+                     std::span<const std::uint32_t> blocks, BlockOrder order, const Visit& visit) {
     const std::uint32_t* next = blocks.data();
     for (const KindWord<children> kinds : parents) {
-        const FamilyOf<children> family = family_of<children>(units, kinds, next);
+        const FamilyOf<children> family = family_of<children>(units, kinds, next, order);
         next += family.inner;
         visit(family);
     }
@@ -123,7 +123,8 @@ TreeShapeOf<children> shape_of(const MultiresTree& tree) {
 }
 
 template <int children>
-FamilyOf<children> family_of(const KindUnits& units, std::uint32_t kinds, const std::uint32_t* blocks) {
+FamilyOf<children> family_of(const KindUnits& units, std::uint32_t kinds, const std::uint32_t* blocks,
+                             BlockOrder order) {
     FamilyOf<children> family;
     for (int i = 0; i < children; ++i) {
         const std::uint32_t kind = kind_of(kinds, i);
@@ -131,7 +132,9 @@ FamilyOf<children> family_of(const KindUnits& units, std::uint32_t kinds, const 
             const typename FamilyOf<children>::Member member{i, family.group_units, blocks[family.inner++]};
             if (member.block > 0) {
                 int m = family.count++;
-                for (; m > 0 && family.member[m - 1].block > member.block; --m)
+                for (; order == BlockOrder::smallest_first && m > 0 &&
+                       family.member[m - 1].block > member.block;
+                     --m)
                     family.member[m] = family.member[m - 1];
                 family.member[m] = member;
             }
@@ -157,16 +160,16 @@ Placement place(const FamilyOf<children>& family, std::uint32_t scale) {
 
 template <int children>
 ScaleChoice best_scale(const KindUnits& units, std::span<const KindWord<children>> parents,
-                       std::span<const std::uint32_t> blocks, std::uint32_t max_offset) {
+                       std::span<const std::uint32_t> blocks, std::uint32_t max_offset, BlockOrder order) {
     CHECK(max_offset >= 15);
     std::uint64_t reach = 0;
-    for_each_family<children>(units, parents, blocks, [&](const FamilyOf<children>& family) {
+    for_each_family<children>(units, parents, blocks, order, [&](const FamilyOf<children>& family) {
         reach = std::max(reach, place(family, 1).reach);
     });
     if (reach <= max_offset) return {};
 
     std::vector<FamilyOf<children>> families;
-    for_each_family<children>(units, parents, blocks, [&](const FamilyOf<children>& family) {
+    for_each_family<children>(units, parents, blocks, order, [&](const FamilyOf<children>& family) {
         if (family.count > 0) families.push_back(family);
     });
     return search(families, reach, max_offset);
@@ -174,21 +177,23 @@ ScaleChoice best_scale(const KindUnits& units, std::span<const KindWord<children
 
 template <int children>
 LayoutPlan plan_layout(const TreeShapeOf<children>& shape, const KindUnits& units, std::uint32_t max_offset,
-                       std::uint64_t max_units) {
+                       std::uint64_t max_units, BlockOrder order) {
     CHECK(max_units <= max_tree_units);
     LayoutPlan plan;
     plan.blocks[0].assign(shape.kinds[0].size(), 0);
     for (int height = 0; height <= shape.levels; ++height) {
         const std::vector<KindWord<children>>& parents = shape.kinds[height + 1];
-        const ScaleChoice choice = best_scale<children>(units, parents, plan.blocks[height], max_offset);
+        const ScaleChoice choice =
+            best_scale<children>(units, parents, plan.blocks[height], max_offset, order);
         plan.scale[height] = choice.scale;
         plan.padding += choice.padding;
         plan.blocks[height + 1].reserve(parents.size());
-        for_each_family<children>(units, parents, plan.blocks[height], [&](const FamilyOf<children>& family) {
-            const std::uint64_t end = place(family, choice.scale).end;
-            plan.fits = plan.fits && end <= max_units;
-            plan.blocks[height + 1].push_back(static_cast<std::uint32_t>(end));
-        });
+        for_each_family<children>(units, parents, plan.blocks[height], order,
+                                  [&](const FamilyOf<children>& family) {
+                                      const std::uint64_t end = place(family, choice.scale).end;
+                                      plan.fits = plan.fits && end <= max_units;
+                                      plan.blocks[height + 1].push_back(static_cast<std::uint32_t>(end));
+                                  });
         if (!plan.fits) return plan;
     }
     plan.units = plan.blocks[shape.levels + 1].front();
@@ -196,16 +201,18 @@ LayoutPlan plan_layout(const TreeShapeOf<children>& shape, const KindUnits& unit
 }
 
 template TreeShapeOf<4> shape_of<4>(const MultiresTree&);
-template FamilyOf<4> family_of<4>(const KindUnits&, std::uint32_t, const std::uint32_t*);
+template FamilyOf<4> family_of<4>(const KindUnits&, std::uint32_t, const std::uint32_t*, BlockOrder);
 template Placement place<4>(const FamilyOf<4>&, std::uint32_t);
 template ScaleChoice best_scale<4>(const KindUnits&, std::span<const KindWord<4>>,
-                                   std::span<const std::uint32_t>, std::uint32_t);
-template LayoutPlan plan_layout<4>(const TreeShapeOf<4>&, const KindUnits&, std::uint32_t, std::uint64_t);
+                                   std::span<const std::uint32_t>, std::uint32_t, BlockOrder);
+template LayoutPlan plan_layout<4>(const TreeShapeOf<4>&, const KindUnits&, std::uint32_t, std::uint64_t,
+                                   BlockOrder);
 template TreeShapeOf<8> shape_of<8>(const MultiresTree&);
-template FamilyOf<8> family_of<8>(const KindUnits&, std::uint32_t, const std::uint32_t*);
+template FamilyOf<8> family_of<8>(const KindUnits&, std::uint32_t, const std::uint32_t*, BlockOrder);
 template Placement place<8>(const FamilyOf<8>&, std::uint32_t);
 template ScaleChoice best_scale<8>(const KindUnits&, std::span<const KindWord<8>>,
-                                   std::span<const std::uint32_t>, std::uint32_t);
-template LayoutPlan plan_layout<8>(const TreeShapeOf<8>&, const KindUnits&, std::uint32_t, std::uint64_t);
+                                   std::span<const std::uint32_t>, std::uint32_t, BlockOrder);
+template LayoutPlan plan_layout<8>(const TreeShapeOf<8>&, const KindUnits&, std::uint32_t, std::uint64_t,
+                                   BlockOrder);
 
 }  // namespace obscura

@@ -41,7 +41,8 @@ using TreeShape = TreeShapeOf<4>;
 template <int children>
 TreeShapeOf<children> shape_of(const MultiresTree& tree);
 
-/// The children of one node, seen from their group: those with blocks of their own, smallest block first.
+/// The children of one node, seen from their group: those with blocks of their own, in the
+/// order of these.
 template <int children>
 struct FamilyOf {
     struct Member {
@@ -56,9 +57,14 @@ struct FamilyOf {
 };
 using Family = FamilyOf<4>;
 
+/// In which order siblings' blocks stand. Smallest first, offsets span least. In child order the tree stands
+/// depth-first, and what is behind in one is behind in the other.
+enum class BlockOrder { smallest_first, child };
+
 /// `blocks`: units of the blocks of the inner children, in child order.
 template <int children>
-FamilyOf<children> family_of(const KindUnits& units, std::uint32_t kinds, const std::uint32_t* blocks);
+FamilyOf<children> family_of(const KindUnits& units, std::uint32_t kinds, const std::uint32_t* blocks,
+                             BlockOrder order = BlockOrder::smallest_first);
 
 /// Where the blocks of a family begin, in units from the group's first.
 struct Placement {
@@ -81,7 +87,8 @@ struct ScaleChoice {
 /// the units of their inner children's blocks.
 template <int children>
 ScaleChoice best_scale(const KindUnits& units, std::span<const KindWord<children>> parents,
-                       std::span<const std::uint32_t> blocks, std::uint32_t max_offset);
+                       std::span<const std::uint32_t> blocks, std::uint32_t max_offset,
+                       BlockOrder order = BlockOrder::smallest_first);
 
 struct LayoutPlan {
     std::uint32_t scale[max_tree_levels + 1] = {};
@@ -95,6 +102,7 @@ struct LayoutPlan {
 /// and 8 children, like everything here.
 template <int children>
 LayoutPlan plan_layout(const TreeShapeOf<children>& shape, const KindUnits& units, std::uint32_t max_offset,
-                       std::uint64_t max_units = max_tree_units);
+                       std::uint64_t max_units = max_tree_units,
+                       BlockOrder order = BlockOrder::smallest_first);
 
 }  // namespace obscura

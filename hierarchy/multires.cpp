@@ -162,10 +162,10 @@ MultiresCounts count_nodes(const MultiresTree& tree) {
 
 template <int dimensions>
 typename MultiresBuilder<dimensions>::Part MultiresBuilder<dimensions>::join(const Part (&child)[children]) {
-    DepthInterval intervals[children];
+    DepthInterval of_children[children];
     for (int i = 0; i < children; ++i)
-        intervals[i] = child[i].interval;
-    const Combined combined = combine(intervals);
+        of_children[i] = child[i].interval;
+    const Combined combined = combine(of_children);
 
     Part part;
     part.interval = combined.interval;
@@ -177,6 +177,7 @@ typename MultiresBuilder<dimensions>::Part MultiresBuilder<dimensions>::join(con
         part.kinds |= static_cast<std::uint32_t>(kind) << (2 * i);
         nodes.push_back(
             {covered ? 0.0f : stored_depth(child[i].interval), child[i].kinds, child[i].first_child});
+        if (keeps_intervals) intervals.push_back(covered ? DepthInterval{} : child[i].interval);
     }
     return part;
 }
@@ -189,7 +190,21 @@ std::uint64_t MultiresBuilder<dimensions>::append(const MultiresBuilder& other) 
         node.set_first_child(node.first_child() + offset);
         nodes.push_back(node);
     }
+    intervals.insert(intervals.end(), other.intervals.begin(), other.intervals.end());
     return offset;
+}
+
+template <int dimensions>
+void MultiresBuilder<dimensions>::drop(std::size_t mark) {
+    nodes.resize(mark);
+    if (keeps_intervals) intervals.resize(mark);
+}
+
+template <int dimensions>
+void MultiresBuilder<dimensions>::assign(const MultiresBuilder& other) {
+    nodes.assign(other.nodes.begin(), other.nodes.end());
+    intervals.assign(other.intervals.begin(), other.intervals.end());
+    keeps_intervals = other.keeps_intervals;
 }
 
 template class MultiresBuilder<2>;
@@ -201,10 +216,12 @@ MultiresTree build_bottom_up(int levels, const IntervalSource<dimensions>& sourc
     tree.dimensions = dimensions;
     tree.levels = levels;
     MultiresBuilder<dimensions> builder;
+    builder.keeps_intervals = true;
     const auto root = bottom_up<dimensions>(in_morton_order<dimensions>(levels, source), builder);
     tree.root = {stored_depth(root.interval), root.kinds, root.first_child};
     tree.root_interval = root.interval;
     tree.nodes = std::move(builder.nodes);
+    tree.intervals = std::move(builder.intervals);
     return tree;
 }
 template MultiresTree build_bottom_up<2>(int, const IntervalSource<2>&);

@@ -58,6 +58,9 @@ struct MultiresTree {
     MultiresNode root;
     DepthInterval root_interval;
     std::vector<MultiresNode> nodes;  ///< groups of siblings, in the order they were finished
+    /// Of each node: the depths that its value may be. Codes that choose values themselves ask for them.
+    /// Empty where they were not kept; empty nodes have that of the background.
+    std::vector<DepthInterval> intervals;
 };
 
 MultiresCounts count_nodes(const MultiresTree& tree);
@@ -85,8 +88,14 @@ class MultiresBuilder {
 
     /// Appends another builder's nodes; returns what to add to its parts' first_child.
     std::uint64_t append(const MultiresBuilder& other);
+    /// Drops the nodes from `mark` on.
+    void drop(std::size_t mark);
+    /// Takes over a copy of another builder's nodes that is as large as it must be.
+    void assign(const MultiresBuilder& other);
 
     std::vector<MultiresNode> nodes;
+    std::vector<DepthInterval> intervals;  ///< of the nodes, if kept
+    bool keeps_intervals = false;
 };
 
 extern template class MultiresBuilder<2>;

@@ -50,7 +50,9 @@ SquareBuilder<Tree>::SquareBuilder(const FacetSet& set, const BuildParams& param
       isa_(isa),
       budget_(budget),
       cancel_(cancel),
-      judge_(set, params.receivers, params.mesh_certificate ? params.tuning.longest_surface : 0) {}
+      judge_(set, params.receivers, params.mesh_certificate ? params.tuning.longest_surface : 0) {
+    if constexpr (!Tree::keeps_detail) tree.keeps_intervals = params.keep_intervals;
+}
 
 template <class Tree>
 auto SquareBuilder<Tree>::decide(const Site& site, std::vector<Listed>& list, std::size_t begin,
@@ -137,7 +139,7 @@ auto SquareBuilder<Tree>::visit(const Site& site, std::size_t begin) -> Part {
     }
     if (site.value_only()) {
         part.kinds = 0;
-        tree.nodes.resize(mark);
+        tree.drop(mark);
     }
     return part;
 }
@@ -167,7 +169,7 @@ template <class Tree>
 auto SquareBuilder<Tree>::settled(Part part, int height, std::size_t mark) -> Part {
     if constexpr (Tree::keeps_detail) {
         if (part.kinds == 0 || height > params_.detail_height || !has_depth(part.interval)) return part;
-        tree.nodes.resize(mark);
+        tree.drop(mark);
         return Tree::texel(part.interval);
     }
     return part;

@@ -1,6 +1,9 @@
 #pragma once
 // The serialised tree as lookups read it. POD: kernels include this.
 //
+// A *code* is a way to write a tree of depths (hierarchy/codes): `mh` is described here, since others are
+// built on its nodes, `mmh` in hierarchy/mmh.
+//
 // Scandolo, Bauszat, Eisemann 2016, section 3.2, after S. Lefebvre, H. Hoppe, "Compressed Random-Access Trees
 // for Spatially Coherent Data", EGSR 2007: depth first, siblings side by side, each inner node with the kinds
 // of its children and one offset to the first of them, in units that grow with the height of the node.
@@ -15,6 +18,9 @@
 
 #include <cstdint>
 
+/// Of functions that kernels and scalar code share: no object exports one.
+#define OBSCURA_TREE_INLINE inline __attribute__((always_inline))
+
 namespace obscura {
 
 /// Levels of the largest map (2^20 texels a side), and the root's.
@@ -22,9 +28,34 @@ constexpr int max_tree_levels = 20;
 /// Levels of the largest top grid: 2^24 entries, 128 MiB.
 constexpr int max_top_levels = 12;
 
-enum class TreeLayout : std::uint32_t { words16 = 0, words24 = 1, bytes16 = 2 };
+/// The codes. Their numbers stand in files; what they can do is in hierarchy/codes/codes.h.
+enum class ShadowCode : std::uint32_t { mh = 0, mmh = 1 };
 
-/// A layout and all that tells it from the others.
+struct ShadowCodeName {
+    ShadowCode code;
+    const char* name;  ///< in scene files
+};
+inline constexpr ShadowCodeName shadow_code_names[] = {{ShadowCode::mh, "mh"}, {ShadowCode::mmh, "mmh"}};
+constexpr int shadow_code_count = static_cast<int>(sizeof shadow_code_names / sizeof shadow_code_names[0]);
+
+/// Of a code that is one.
+constexpr const char* name_of(ShadowCode code) {
+    int i = 0;
+    while (i + 1 < shadow_code_count && shadow_code_names[i].code != code)
+        ++i;
+    return shadow_code_names[i].name;
+}
+
+/// How a code writes its nodes. words16, words24, bytes16: mh; fractions, float_bits: mmh.
+enum class TreeLayout : std::uint32_t {
+    words16 = 0,
+    words24 = 1,
+    bytes16 = 2,
+    fractions = 3,
+    float_bits = 4
+};
+
+/// A layout of mh and all that tells it from the others.
 struct TreeLayoutRow {
     TreeLayout layout;
     const char* name;  ///< in scene files
@@ -47,11 +78,12 @@ constexpr const TreeLayoutRow& row_of(TreeLayout layout) {
     return tree_layouts[i];
 }
 
-/// One entry of the dense top grid: where a descent stands after its first levels.
+/// Where a descent stands; one entry of the dense top grid, after its first levels.
 struct TopNode {
-    /// Unit index of the inner node of height levels - top_levels; no_tree_node when the descent ended above.
+    /// Unit index of the inner node; no_tree_node when the descent ended above.
     std::uint32_t node = 0;
-    /// Unit index of the last value on the way, this node's included: of the value itself, not its node.
+    /// What the code carries of the values on the way, this node's included. mh: the unit index of the last
+    /// one (of the value itself, not its node). mmh: their sum.
     std::uint32_t value = 0;
 };
 constexpr std::uint32_t no_tree_node = 0xffffffffu;
@@ -60,6 +92,7 @@ constexpr std::uint32_t no_tree_node = 0xffffffffu;
 /// children(node at height h) = node + offset * offset_scale[h]; texels have height 0, the root `levels`.
 struct TreeCode {
     const std::uint8_t* units = nullptr;  ///< words: aligned to 4; bytes: readable 3 beyond the end
+    ShadowCode code = ShadowCode::mh;
     TreeLayout layout = TreeLayout::words24;
     std::int32_t levels = 0;
     std::uint32_t offset_scale[max_tree_levels + 1] = {};

@@ -6,7 +6,7 @@
 // "Compressed Multiresolution Hierarchies for High-Quality Precomputed Shadows", Eurographics 2016, figure 2.
 //
 // Calls: raster/interval_map.h interval_map, hierarchy/multires.h build_bottom_up, count_nodes,
-//        hierarchy/shadow_tree.h encode_tree, hierarchy/decode.h tree_value_at_level.
+//        hierarchy/codes/codes.h encode_tree, hierarchy/codes/decode.h tree_value_at_level.
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "hierarchy/decode.h"
-#include "hierarchy/shadow_tree.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
 #include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/tree_scene.h"
@@ -138,7 +138,7 @@ Image<Rgb8> lesson_6_tree(const Exec& exec) {
                          {Mark::square, far_grey, "far from it"}});
     f.source_line(6,
                   "raster/interval_map.h interval_map · hierarchy/multires.h build_bottom_up · "
-                  "hierarchy/decode.h tree_value_at_level");
+                  "hierarchy/codes/decode.h tree_value_at_level");
     return f.picture;
 }
 

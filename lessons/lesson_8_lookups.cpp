@@ -6,7 +6,7 @@
 // Multiresolution Hierarchies for High-Quality Precomputed Shadows", Eurographics 2016, section 3.3,
 // figure 6.
 //
-// Calls: hierarchy/build.h build_shadow_tree, hierarchy/shadow_tree.h encode_tree, filters/shadow_lookup.h
+// Calls: hierarchy/build.h build_shadow_tree, hierarchy/codes/codes.h encode_tree, filters/shadow_lookup.h
 //        pcf_light, pcf_steps, pcf_place.
 
 #include <algorithm>
@@ -19,6 +19,7 @@
 #include "core/parallel.h"
 #include "filters/shadow_lookup.h"
 #include "hierarchy/build.h"
+#include "hierarchy/codes/codes.h"
 #include "lessons/drawing/figure.h"
 #include "lessons/ladder.h"
 #include "lessons/seen_surfaces.h"
@@ -143,7 +144,7 @@ Image<Rgb8> lesson_8_lookups(const Exec& exec) {
         "Both give the same bits, wherever the kernel lies.");
     f.source_line(8,
                   "filters/shadow_lookup.h pcf_steps pcf_place · hierarchy/build.h build_shadow_tree · "
-                  "hierarchy/shadow_tree.h encode_tree");
+                  "hierarchy/codes/codes.h encode_tree");
     return f.picture;
 }
 

@@ -205,16 +205,17 @@ class BlockSetup {
         if (params_.culling == Culling::back_faces && !front) return;
         if (front) std::swap(q, r);
 
-        const DepthPlane plane = params_.depth_planes ? setup_.planes[mesh_.face[t]] : nearest_corner(t);
+        const DepthPlane plane = params_.depth_planes ? setup_.planes[mesh_.face[t]] : depth_range(t);
         *out_++ = {{p.x, q.x, r.x}, {p.y, q.y, r.y}, plane.a, plane.b, plane.c,
                    plane.zmin,      plane.zmax,      t,       crossing};
         if (params_.pair_faces) pair_with_last();
     }
 
-    DepthPlane nearest_corner(std::uint32_t t) const {
+    DepthPlane depth_range(std::uint32_t t) const {
+        const OrderedRange range = triangle_range(mesh_, view_, setup_, t);
         DepthPlane plane;
-        plane.zmin = from_ordered(triangle_range(mesh_, view_, setup_, t).low);
-        plane.zmax = view_.max_depth;
+        plane.zmin = from_ordered(range.low);
+        plane.zmax = from_ordered(range.high);
         return plane;
     }
 

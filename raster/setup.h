@@ -26,8 +26,9 @@ struct SetupParams {
     Region region = {};  ///< leave out what lies outside these texels, up to 2^16 past the view; empty = it
     bool centre_samples_only = true;  ///< leave out what lies between texel centres (single-sample maps)
     bool keep_flat = false;           ///< also what is seen along its plane, and covers nothing
-    bool depth_planes = true;  ///< else records have none, and in zmin the depth of their triangle's nearest
-                               ///< corner (min_depth before the near plane): for who asks for coverage alone
+    bool depth_planes = true;         ///< else records have none, and in zmin and zmax the depths of their
+                               ///< triangle's nearest and farthest corner (any that the view has, before the
+                               ///< near plane): for who asks for coverage alone
 };
 
 /// Depth over one planar face: float(a X + (b Y + c)), clamped to [zmin, zmax].

@@ -80,12 +80,20 @@ struct alignas(64) ShadeBlock {
     float mirror_x[block_samples], mirror_y[block_samples], mirror_z[block_samples];  ///< the view mirrored
     float mirrored_r[block_samples], mirrored_g[block_samples],
         mirrored_b[block_samples];  ///< what is mirrored of the sky, over the weights of all parts
+    float mirrors_r[block_samples], mirrors_g[block_samples],
+        mirrors_b[block_samples];  ///< the share that is mirrored of anything, over the same weights
 };
 
 /// A part of the sky that sheds its light from one direction.
 struct ShadeSkyPart {
     float to_light[3];  ///< unit
     float color[3];     ///< irradiance on a facing surface
+    float per_sr = 0;   ///< 1 / its solid angle, which ShadeSent's light comes from
+};
+
+/// What surfaces send from where they hide a part of the sky: irradiance on a facing surface, by sample.
+struct alignas(64) ShadeSent {
+    float r[block_samples], g[block_samples], b[block_samples];
 };
 
 constexpr float dielectric_f0 = 0.04f;
@@ -96,7 +104,8 @@ constexpr float inv_pi = 0.318309886183790672f;
 /// shade_sky_begin, after shade_begin: what surfaces mirror of `sky`, of which shade_sky_part takes away a
 /// share for each of the parts that does not reach them. All parts that a sample asks must be told at once. A
 /// part's share is its weight max(mirrored view . part, 0)^8 of the sum of all: approximate, since mirrors
-/// show one direction and few parts stand for all. shade_sky_part also adds the part's diffuse light.
+/// show one direction and few parts stand for all. shade_sky_part also adds the part's diffuse light, and,
+/// where it is hidden, both of what hides it (`sent`, null: nothing).
 #define OBSCURA_SHADE_BLOCK                                                                                \
     void shade_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky,     \
                      const CameraRays& rays, ShadeBlock& shade) noexcept;                                  \
@@ -105,7 +114,7 @@ constexpr float inv_pi = 0.318309886183790672f;
     void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials, const ShadeSky& sky, \
                          const ShadeSkyPart* parts, std::int32_t count, ShadeBlock& shade) noexcept;       \
     void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const float* visibility,    \
-                        ShadeBlock& shade) noexcept;
+                        const ShadeSent* sent, ShadeBlock& shade) noexcept;
 namespace ref {
 OBSCURA_SHADE_BLOCK
 }

@@ -93,15 +93,20 @@ OBSCURA_INLINE MaterialLanes read_materials(const ShadeMaterial* materials, cons
     return v;
 }
 
+/// The share that a surface mirrors of what lies around the mirror direction.
+OBSCURA_INLINE Vec3x16 mirrors(const MaterialLanes& m, const Vec3x16& f0, const F32& nv) {
+    const F32 rest = fifth_power(one() - nv);
+    const auto fresnel = [&](const F32& f) { return f + (max(m.gloss, f) - f) * rest; };
+    return {fresnel(f0.x), fresnel(f0.y), fresnel(f0.z)};
+}
+
 /// What a surface mirrors of the sky, before its scale.
 OBSCURA_INLINE Vec3x16 mirrored(const ShadeSky& sky, const MaterialLanes& m, const Vec3x16& f0, const F32& ny,
                                 const F32& vy, const F32& nv) {
     const F32 mirror_y = (splat(2.0f) * nv) * ny - vy;
     const Vec3x16 seen = mix(smeared_radiance(sky, mirror_y, m.sharpness),
                              sky_irradiance(sky, mirror_y) * splat(inv_pi), m.alpha);
-    const F32 rest = fifth_power(one() - nv);
-    const auto fresnel = [&](const F32& f) { return f + (max(m.gloss, f) - f) * rest; };
-    return Vec3x16{fresnel(f0.x), fresnel(f0.y), fresnel(f0.z)} * seen;
+    return mirrors(m, f0, nv) * seen;
 }
 
 OBSCURA_INLINE Vec3x16 ambient(const ShadeSky& sky, const MaterialLanes& m, const Vec3x16& diffuse,
@@ -278,11 +283,13 @@ void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials
         store3(shade.mirror_x + at, shade.mirror_y + at, shade.mirror_z + at, r);
         const Vec3x16 seen = mirrored(sky, m, f0, n.y, v.y, nv) * splat(sky.ambient);
         store3(shade.mirrored_r + at, shade.mirrored_g + at, shade.mirrored_b + at, seen * (one() / weights));
+        store3(shade.mirrors_r + at, shade.mirrors_g + at, shade.mirrors_b + at,
+               mirrors(m, f0, nv) * (one() / weights));
     }
 }
 
 void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const float* visibility,
-                    ShadeBlock& shade) noexcept {
+                    const ShadeSent* sent, ShadeBlock& shade) noexcept {
     const Vec3x16 l = splat3(part.to_light), color = splat3(part.color);
     for (int at = 0; at < block_samples; at += lanes) {
         const std::uint32_t covered = surface.covered[at / 16];
@@ -303,8 +310,15 @@ void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const
         const F32 weight = mirror_weight(surface, r, l, at) * hidden;
         const Vec3x16 taken =
             load3(shade.mirrored_r + at, shade.mirrored_g + at, shade.mirrored_b + at) * weight;
+        Vec3x16 arriving = (out * color) * seen;
+        if (sent != nullptr) {
+            const Vec3x16 instead = load3(sent->r + at, sent->g + at, sent->b + at);
+            const Vec3x16 share = load3(shade.mirrors_r + at, shade.mirrors_g + at, shade.mirrors_b + at) *
+                                  (weight * splat(part.per_sr));
+            arriving = arriving + (out * hidden + share) * instead;
+        }
         const Vec3x16 sum = load3(shade.r + at, shade.g + at, shade.b + at);
-        const Vec3x16 next = (sum + (out * color) * seen) - taken;
+        const Vec3x16 next = (sum + arriving) - taken;
         store3(shade.r + at, shade.g + at, shade.b + at, select(mask_of(covered), next, sum));
     }
 }

@@ -52,6 +52,13 @@ Vec3f smeared_radiance(const ShadeSky& sky, float y, float sharpness) {
     return mix(vec(sky.ground), mix(vec(sky.horizon), vec(sky.zenith), lane_max(y, 0.0f)), above);
 }
 
+/// The share that a surface mirrors of what lies around the mirror direction.
+Vec3f mirrors(const ShadeMaterial& m, const ShadeBlock& shade, int at) {
+    const float rest = fifth_power(1.0f - shade.nv[at]);
+    const auto fresnel = [&](float f0) { return f0 + (lane_max(m.gloss, f0) - f0) * rest; };
+    return {fresnel(shade.f0_r[at]), fresnel(shade.f0_g[at]), fresnel(shade.f0_b[at])};
+}
+
 /// What a surface mirrors of the sky, before its scale: the radiance from the mirror direction, blurred
 /// towards the mean as alpha grows.
 Vec3f mirrored(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& shade, Vec3f n, Vec3f v,
@@ -60,9 +67,7 @@ Vec3f mirrored(const ShadeSky& sky, const ShadeMaterial& m, const ShadeBlock& sh
     const float mirror_y = (2.0f * nv) * n.y - v.y;
     const Vec3f seen =
         mix(smeared_radiance(sky, mirror_y, m.sharpness), sky_irradiance(sky, mirror_y) * inv_pi, m.alpha);
-    const float rest = fifth_power(1.0f - nv);
-    const auto fresnel = [&](float f0) { return f0 + (lane_max(m.gloss, f0) - f0) * rest; };
-    return Vec3f{fresnel(shade.f0_r[at]), fresnel(shade.f0_g[at]), fresnel(shade.f0_b[at])} * seen;
+    return mirrors(m, shade, at) * seen;
 }
 
 /// Light of the sky without occlusion: its irradiance over the diffuse part, and what is mirrored.
@@ -236,18 +241,22 @@ void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials
         for (std::int32_t i = 0; i < count; ++i)
             weights = weights + mirror_weight(surface, r, vec(parts[i].to_light), at);
         const ShadeMaterial& m = materials[static_cast<std::size_t>(surface.material[at])];
-        const Vec3f seen = (mirrored(sky, m, shade, n, v, at) * sky.ambient) * (1.0f / weights);
+        const Vec3f seen = (mirrored(sky, m, shade, n, v, at) * sky.ambient) * (1.0f / weights),
+                    share = mirrors(m, shade, at) * (1.0f / weights);
         shade.mirror_x[at] = r.x;
         shade.mirror_y[at] = r.y;
         shade.mirror_z[at] = r.z;
         shade.mirrored_r[at] = seen.x;
         shade.mirrored_g[at] = seen.y;
         shade.mirrored_b[at] = seen.z;
+        shade.mirrors_r[at] = share.x;
+        shade.mirrors_g[at] = share.y;
+        shade.mirrors_b[at] = share.z;
     }
 }
 
 void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const float* visibility,
-                    ShadeBlock& shade) noexcept {
+                    const ShadeSent* sent, ShadeBlock& shade) noexcept {
     const Vec3f l = vec(part.to_light), color = vec(part.color);
     for (int at = 0; at < block_samples; ++at) {
         if ((surface.covered[at / 16] >> (at & 15) & 1u) == 0) continue;
@@ -263,8 +272,14 @@ void shade_sky_part(const SurfaceBlock& surface, const ShadeSkyPart& part, const
         }
         const Vec3f r{shade.mirror_x[at], shade.mirror_y[at], shade.mirror_z[at]};
         const float weight = mirror_weight(surface, r, l, at) * hidden;
-        const Vec3f arriving = (out * color) * seen,
-                    taken = Vec3f{shade.mirrored_r[at], shade.mirrored_g[at], shade.mirrored_b[at]} * weight;
+        const Vec3f taken = Vec3f{shade.mirrored_r[at], shade.mirrored_g[at], shade.mirrored_b[at]} * weight;
+        Vec3f arriving = (out * color) * seen;
+        if (sent != nullptr) {
+            const Vec3f instead{sent->r[at], sent->g[at], sent->b[at]},
+                share = Vec3f{shade.mirrors_r[at], shade.mirrors_g[at], shade.mirrors_b[at]} *
+                        (weight * part.per_sr);
+            arriving = arriving + (out * hidden + share) * instead;
+        }
         shade.r[at] = (shade.r[at] + arriving.x) - taken.x;
         shade.g[at] = (shade.g[at] + arriving.y) - taken.y;
         shade.b[at] = (shade.b[at] + arriving.z) - taken.z;

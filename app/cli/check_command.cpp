@@ -19,6 +19,8 @@
 #include "app/frame/shadows.h"
 #include "app/frame/soft_light.h"
 #include "app/frame/stack_shadow.h"
+#include "app/frame/sun_hours.h"
+#include "app/frame/sun_hours_text.h"
 #include "app/pair/pair.h"
 #include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
@@ -27,6 +29,7 @@
 #include "app/scene/stereo_settings.h"
 #include "core/count_text.h"
 #include "core/error.h"
+#include "core/mesh_memory.h"
 #include "raster/light_samples.h"
 #include "raster/view.h"
 
@@ -77,6 +80,7 @@ std::string texel_text(const SceneLight& light, const Scene& scene) {
 std::string tree_text(const SceneLight& light) {
     const ShadowSettings& s = light.shadow;
     std::string out = s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
+    if (s.code != ShadowCode::mh) out += fmt::format(" as {}", name_of(s.code));
     if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
     return out + (s.filter == ShadowFilter::pcf ? "" : ", filtered hierarchically");
 }
@@ -189,6 +193,33 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     return out;
 }
 
+/// What the scene's own files need that takes work of its own.
+FrameOptions channels_of(const std::vector<Output>& outputs) {
+    FrameOptions channels;
+    for (const Output& output : outputs)
+        channels.sun_hours |= output.aov == Aov::sun_hours;
+    return channels;
+}
+
+/// What hours of sun take, asked for or not.
+std::string hours_text(const Scene& scene) {
+    const Light* sun = sun_with_path(scene);
+    if (sun == nullptr || scene.mesh.triangles.empty()) return "";
+    const MeshSize mesh = size_of(scene.mesh);
+    const auto suns = static_cast<int>(sun_steps(*sun->path).size());
+    std::string out = fmt::format("sun hours {}\n", sun_path_text(sun->id, *sun->path));
+    if (suns == 0) return out + fmt::format("note      {}\n", no_sun_text(sun->id, *sun->path));
+    const std::int64_t samples =
+        std::int64_t{scene.render.width} * scene.render.height * scene.render.samples;
+    return out + fmt::format(
+                     "          exact: {}, each with all that casts shadows in order, {} in a pass, {}; up "
+                     "to {} to look up for each; {} at most\n",
+                     count_text(suns, "sun"), suns_together(mesh, suns),
+                     count_text(sun_passes(mesh, suns), "pass", "passes"), count_text(samples, "sample"),
+                     size_text(sun_hours_pass_bytes(mesh, suns) + sun_hours_tiles_bytes(mesh, suns) +
+                               sun_hours_sums_bytes(scene.render)));
+}
+
 /// Finds what "auto" means for the first frame and puts it in the lights' places; refuses what rendering
 /// would refuse then.
 std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const Exec& exec) {
@@ -245,7 +276,9 @@ std::string check_report(const CheckOptions& options) {
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
     // Before resolutions are found, as rendering tells it.
-    const MemoryEstimate memory = estimate_memory(scene);
+    const FrameOptions channels = channels_of(scene.outputs);
+    const MemoryEstimate memory =
+        estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = channels});
     const auto found = find_resolutions(scene, Exec{});
     const auto lights = subtables(document.root, "light");
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -259,6 +292,7 @@ std::string check_report(const CheckOptions& options) {
                 scene.lights[i].light.id, scene_frames(document).count());
         }
     }
+    out += hours_text(scene);
     out += lens_text(scene.optics, scene.render, glare_margin(scene));
     std::string needs = memory_text("", memory, scene);
     if (document.root.has("stereo")) {

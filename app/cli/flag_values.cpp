@@ -115,7 +115,7 @@ std::vector<Aov> aov_values(const std::string& flag, std::string_view text) {
         std::vector<std::string> names = names_of(aov_words);
         names.erase(names.begin());
         if (std::find(names.begin(), names.end(), part) == names.end())
-            reject(flag, part, "one of depth, normal, albedo, object, shadow" + hint(part, names));
+            reject(flag, part, "one of depth, normal, albedo, object, shadow, sun_hours" + hint(part, names));
         const Aov aov = value_named(aov_words, part);
         if (std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
     }

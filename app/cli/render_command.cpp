@@ -41,7 +41,7 @@ RenderReport begin_report(const RenderPlan& plan, const Scene& scene, const Scen
                   crop.empty() ? plan.render.height : crop.height,
                   plan.render.samples,
                   scene.limits.memory_mib};
-    report.memory = estimate_memory(scene);
+    report.memory = estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = plan.frame_options});
     return report;
 }
 
@@ -160,7 +160,7 @@ int run_render(const Arguments& arguments) {
     flags.text(
         "--aov", "NAMES", aovs,
         "Further pictures beside the first, NAME.depth.pfm and so on: depth (m), normal, albedo, object, "
-        "shadow; separated by commas.",
+        "shadow, sun_hours (hours of direct sun along the sun's path); separated by commas.",
         "none");
     flags.text("--aov-format", "KIND", aov_kind, "pfm (numbers as they are) or png (mapped to look at).",
                "pfm");

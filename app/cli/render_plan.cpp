@@ -1,10 +1,20 @@
 #include "app/cli/render_plan.h"
 
+#include <algorithm>
+
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
+#include "app/scene/light_kinds.h"
+#include "core/error.h"
 
 namespace obscura {
 namespace {
+
+bool has_sun(const SceneDocument& document) {
+    const auto lights = subtables(document.root, "light");
+    return std::any_of(lights.begin(), lights.end(),
+                       [](const SceneTable* light) { return light_kind_of(*light).kind == LightKind::sun; });
+}
 
 /// The channels that the files need.
 void request_channels(const std::vector<PlannedOutput>& outputs, FrameOptions& options) {
@@ -14,6 +24,7 @@ void request_channels(const std::vector<PlannedOutput>& outputs, FrameOptions& o
         options.albedo |= output.aov == Aov::albedo;
         options.object |= output.aov == Aov::object;
         options.shadow |= output.aov == Aov::shadow;
+        options.sun_hours |= output.aov == Aov::sun_hours;
     }
 }
 
@@ -32,6 +43,8 @@ RenderPlan plan_render(const RenderOptions& options) {
                       plan.frames.size() > 1, scene_frames(plan.document).count() > 1},
                      outputs_of(plan.document));
     request_channels(plan.outputs, plan.frame_options);
+    if (plan.frame_options.sun_hours && !has_sun(plan.document))
+        throw UsageError("--aov sun_hours: the scene has no light of type \"sun\"");
     return plan;
 }
 

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "app/frame/surface_light.h"
+#include "core/error.h"
 #include "core/stopwatch.h"
+#include "core/vec_arrays.h"
+#include "raster/depth_tile.h"
 
 namespace obscura {
 
-ExactTile::ExactTile(std::size_t lights)
+ExactTile::ExactTile(std::size_t lights, bool sent)
     : depth_(room),
       gx_(room),
       gy_(room),
@@ -20,6 +24,8 @@ ExactTile::ExactTile(std::size_t lights)
       covered_(room / 16),
       thin_(room / 16),
       lit_(lights * room / 16),
+      before_(sent ? lights * tile_samples : 0),
+      before_m_(sent ? lights * tile_samples : 0),
       work_(room) {}
 
 void ExactTile::keep_block(const TileScene& scene, int k, int count, int first_row,
@@ -76,6 +82,13 @@ void ExactTile::run(const TileScene& scene, int column, int row, int first, int 
         if (!scene.lights[l].exact) continue;
         const Stopwatch watch;
         work_.shadows(all, *scene.lights[l].exact, isa, lit_.data() + l * (room / 16), work.exact_counts);
+        if (scene.gathers()) {
+            CHECK(count == 1, "samples of a pass are taken one by one");
+            std::uint32_t* before = before_.data() + l * tile_samples;
+            std::fill_n(before, tile_samples, no_triangle);
+            work_.nearest(all, *scene.lights[l].exact, isa, lit_.data() + l * (room / 16),
+                          {before, before_m_.data() + l * tile_samples}, work.exact_counts);
+        }
         if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
     }
 }
@@ -105,11 +118,33 @@ void ExactTile::restore(int k, TileWork& work) const {
 }
 
 void ExactTile::darken(std::size_t light, int k, int first_row, float* visibility) const {
-    const std::uint32_t* lit = lit_.data() + light * (room / 16);
+    const std::uint32_t* reached = lit(light);
     for (int i = 0; i < block_samples; ++i) {
         const int at = exact_point_index(k, count_, i % frame_tile_side, first_row + i / frame_tile_side);
-        const bool is_lit = (lit[at / 16] >> (at % 16) & 1u) != 0;
+        const bool is_lit = (reached[at / 16] >> (at % 16) & 1u) != 0;
         visibility[i] = is_lit ? visibility[i] : 0.0f;
+    }
+}
+
+void ExactTile::gather(const TileScene& scene, std::size_t light, int first_row, ShadeSent& sent) const {
+    const TileLight& part = scene.lights[light];
+    const Vec3d to_light = to_double(vec(part.exact->to_light));
+    // A direction stands for a part of the sky; with strata it is asked for more than its own.
+    const auto solid_angle = static_cast<float>(part.solid_angle_sr),
+               cone = solid_angle / static_cast<float>(scene.pass->stride);
+    for (int i = 0; i < block_samples; ++i) {
+        const auto at = static_cast<std::size_t>(
+            exact_point_index(0, 1, i % frame_tile_side, first_row + i / frame_tile_side));
+        const std::uint32_t triangle = before_[light * tile_samples + at];
+        Vec3f arriving{0, 0, 0};
+        if (triangle != no_triangle) {
+            arriving = sent_radiance(*scene.casters, *scene.sent, triangle, {px_[at], py_[at], pz_[at]},
+                                     to_light, before_m_[light * tile_samples + at], cone) *
+                       solid_angle;
+        }
+        sent.r[i] = arriving.x;
+        sent.g[i] = arriving.y;
+        sent.b[i] = arriving.z;
     }
 }
 
@@ -122,7 +157,7 @@ std::unique_ptr<ExactTile> ExactTilePool::take() {
             return tile;
         }
     }
-    return std::make_unique<ExactTile>(lights_);
+    return std::make_unique<ExactTile>(lights_, sent_);
 }
 
 void ExactTilePool::give_back(std::unique_ptr<ExactTile> tile) {
@@ -130,11 +165,12 @@ void ExactTilePool::give_back(std::unique_ptr<ExactTile> tile) {
     free_.push_back(std::move(tile));
 }
 
-std::int64_t exact_tile_bytes(std::size_t lights) {
+std::int64_t exact_tile_bytes(std::size_t lights, bool sent) {
     constexpr std::int64_t samples = std::int64_t{frame_tile_side} * frame_tile_side * exact_samples_together;
     // Depth, normal, triangle (twice), face and position of a sample, two masks and one for each light, a
     // word for sixteen of them; 37 bytes to look it up.
-    return samples * (7 * 4 + 3 * 8 + 37) + samples / 4 * static_cast<std::int64_t>(2 + lights);
+    return samples * (7 * 4 + 3 * 8 + 37) + samples / 4 * static_cast<std::int64_t>(2 + lights) +
+           (sent ? samples / exact_samples_together * 8 * static_cast<std::int64_t>(lights) : 0);
 }
 
 }  // namespace obscura

@@ -19,7 +19,8 @@ constexpr int exact_samples_together = 4;
 /// exact_point_index().
 class ExactTile {
   public:
-    explicit ExactTile(std::size_t lights);
+    /// `sent`: of lights that are parts of a sky, what hides them is wanted, too; of one sample at a time.
+    explicit ExactTile(std::size_t lights, bool sent = false);
 
     /// Stages 1 and 2 of the tile for samples [first, first + count) of the pattern, rows [first_row,
     /// end_row) (whole blocks), then the shadows of the lights that have exact ones.
@@ -38,9 +39,16 @@ class ExactTile {
     /// Width of the widest penumbra among the points, up to stop_px.
     float widest_penumbra(const ExactLight& light, const ExactSpread& spread, float stop_px, Isa isa);
 
+    /// Bits, as ExactPoints' masks, of the points that run() found the light to reach.
+    const std::uint32_t* lit(std::size_t light) const { return lit_.data() + light * (room / 16); }
+
     /// Puts 0 for those of a block's samples that the light does not reach: of the k-th sample, from
     /// first_row on.
     void darken(std::size_t light, int k, int first_row, float* visibility) const;
+
+    /// What surfaces send to those samples from where they hide a part of the sky, 0 to others: irradiance on
+    /// a surface that faces it.
+    void gather(const TileScene& scene, std::size_t light, int first_row, ShadeSent& sent) const;
 
   private:
     static constexpr std::size_t tile_samples = std::size_t{frame_tile_side} * frame_tile_side;
@@ -51,23 +59,26 @@ class ExactTile {
     Buffer<double> px_, py_, pz_;
     int count_ = 0;
     Buffer<std::uint32_t> triangle_, of_point_, face_, covered_, thin_, lit_;
+    Buffer<std::uint32_t> before_;  ///< of each light: the nearest triangle before the points,
+    Buffer<float> before_m_;        ///< and how far off
     ExactWork work_;
 };
 
 /// Memory of tiles, used again by whichever is rendered next.
 class ExactTilePool {
   public:
-    explicit ExactTilePool(std::size_t lights) : lights_(lights) {}
+    explicit ExactTilePool(std::size_t lights, bool sent = false) : lights_(lights), sent_(sent) {}
     std::unique_ptr<ExactTile> take();
     void give_back(std::unique_ptr<ExactTile> tile);
 
   private:
     std::size_t lights_;
+    bool sent_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<ExactTile>> free_;
 };
 
 /// Bytes of one tile's.
-std::int64_t exact_tile_bytes(std::size_t lights);
+std::int64_t exact_tile_bytes(std::size_t lights, bool sent = false);
 
 }  // namespace obscura

@@ -11,6 +11,7 @@
 #include "app/frame/light_shadow_stats.h"
 #include "core/buffer.h"
 #include "core/image.h"
+#include "core/sun_path.h"
 #include "core/vec.h"
 #include "raster/exact/exact.h"
 #include "raster/layers.h"
@@ -20,7 +21,8 @@ namespace obscura {
 struct FrameOptions {
     Region crop;  ///< pixels of the whole picture; empty (width or height 0) = all of it
     bool depth = false, normal = false, albedo = false, object = false, shadow = false;  ///< AOVs wanted
-    bool shift = false;  ///< of eyes: Frame::shift_px
+    bool shift = false;      ///< of eyes: Frame::shift_px
+    bool sun_hours = false;  ///< needs a sun with a path
     /// Share of the work done, tiles and the lens's pattern, rising to 1; called from any thread, one call at
     /// a time, some hundred times.
     std::function<void(double)> progress;
@@ -46,6 +48,25 @@ struct GlareStats {
     std::string reason;
 };
 
+/// Hours of direct sun, when they were wanted.
+struct SunHoursStats {
+    std::string light;
+    SunPath path;
+    std::vector<SunSpan> sunlit;      ///< when the sun is up on it
+    int suns = 0;                     ///< steps with the sun up
+    int passes = 0;                   ///< over the tiles
+    double order_s = 0, total_s = 0;  ///< putting in order what casts shadows; all of it
+    ExactCounts exact;
+
+    /// What open level ground has: the most there is.
+    double sunlit_h() const {
+        double hours = 0;
+        for (const SunSpan& span : sunlit)
+            hours += span.hours();
+        return hours;
+    }
+};
+
 /// Wall-clock seconds per stage, and exact counts.
 struct FrameStats {
     double surface_s = 0;     ///< table of surface triangles; 0 when kept
@@ -55,18 +76,19 @@ struct FrameStats {
     double setup_s = 0;       ///< triangle setup and bins of the camera
     double tiles_s = 0;       ///< visibility, surface, shadow lookups, shading, resolve
     double total_s = 0;
-    std::int64_t triangles = 0;            ///< in the scene
-    std::int64_t records = 0;              ///< triangles that reach a sample of the picture, after clipping
-    std::int64_t bin_items = 0;            ///< triangle-tile pairs
-    std::int64_t samples = 0;              ///< taken
-    std::int64_t covered_samples = 0;      ///< of these, on a surface
-    ExactCounts exact;                     ///< of exact shadows, all lights
-    std::int64_t shadow_maps = 0;          ///< views rendered for this frame, not kept ones
-    std::int64_t shadow_bytes = 0;         ///< all maps
-    std::int64_t bytes = 0;                ///< estimate_memory(), checked before the work
-    std::vector<LightShadowStats> lights;  ///< of the lights with shadows, in scene order
-    std::optional<GlareStats> glare;       ///< none: the scene has no lens
-    std::vector<std::string> notices;      ///< what happened that one would want to know: caches made again
+    std::int64_t triangles = 0;              ///< in the scene
+    std::int64_t records = 0;                ///< triangles that reach a sample of the picture, after clipping
+    std::int64_t bin_items = 0;              ///< triangle-tile pairs
+    std::int64_t samples = 0;                ///< taken
+    std::int64_t covered_samples = 0;        ///< of these, on a surface
+    ExactCounts exact;                       ///< of exact shadows, all lights
+    std::int64_t shadow_maps = 0;            ///< views rendered for this frame, not kept ones
+    std::int64_t shadow_bytes = 0;           ///< all maps
+    std::int64_t bytes = 0;                  ///< estimate_memory(), checked before the work
+    std::vector<LightShadowStats> lights;    ///< of the lights with shadows, in scene order
+    std::optional<GlareStats> glare;         ///< none: the scene has no lens
+    std::optional<SunHoursStats> sun_hours;  ///< none: not wanted
+    std::vector<std::string> notices;        ///< what happened that one would want to know: caches made again
 };
 
 constexpr std::uint32_t no_object = 0xffffffffu;
@@ -86,6 +108,8 @@ struct Frame {
     Image<Vec3f> albedo;  ///< base colour times texture, linear; 0 where nothing is
     Image<float> shadow;  ///< visibility, averaged over the lights with shadows; surfaces that face away
                           ///< count 0; 1 where nothing is, or without such lights
+    /// Hours that the sun reaches the samples on surfaces, their mean; NaN where nothing is.
+    Image<float> sun_hours;
     Vec3d
         lens_offset_m;  ///< where the picture's lens is, from the camera's eye: that of the eye that sees it
     bool complete = false;  ///< false: cancelled

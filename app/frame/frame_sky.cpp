@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "app/frame/tile.h"
+#include "core/error.h"
 #include "core/num.h"
 #include "core/vec_arrays.h"
 #include "raster/lighting.h"
@@ -30,6 +31,9 @@ std::optional<SkyModel> model_of(const Sky& sky, const Exec& exec) {
         }
         case SkyKind::overcast:
             return overcast_sky(sky.sun_elevation_deg, sky.sun_above_air, to_double(sky.ground_albedo));
+        case SkyKind::image:
+            CHECK(sky.image != nullptr, "a sky of an image without one");
+            return *sky.image;
     }
     return std::nullopt;
 }
@@ -57,31 +61,38 @@ Light parallel(Vec3d towards, Vec3f irradiance) {
     return light;
 }
 
-/// What comes from below the horizon, of one radiance: directions of equal solid angle.
-void add_ground(Vec3f radiance, int count, std::vector<Light>& lights) {
-    const auto solid_angle = static_cast<float>(2 * num::pi / count);
+/// What comes from below the horizon: directions of equal solid angle, each with the radiance from there.
+void add_ground(int count, FrameSky& sky) {
+    const double solid_angle = 2 * num::pi / count;
     for (int k = 0; k < count; ++k) {
         const double y = -(k + 0.5) / count, level = std::sqrt(1 - y * y);
         const double angle = k * 2.39996322972865332223;  // of a sunflower
-        lights.push_back(
-            parallel({level * num::cos(angle), y, level * num::sin(angle)}, radiance * solid_angle));
+        const Vec3d direction{level * num::cos(angle), y, level * num::sin(angle)};
+        const Vec3f radiance = sky.model ? sky_radiance(*sky.model, direction) : sky.sky.ground;
+        sky.lights.push_back(
+            parallel(direction, radiance * (sky.sky.ambient * static_cast<float>(solid_angle))));
+        sky.solid_angle_sr.push_back(solid_angle);
     }
 }
 
-std::vector<Light> lights_of(const Sky& sky, const std::optional<SkyModel>& model, const Exec& exec) {
+void add_lights(const Exec& exec, FrameSky& f) {
+    const Sky& sky = f.sky;
     const SkyGrid grid =
-        model ? sky_grid(*model, exec) : sky_grid([&](Vec3d d) { return gradient(sky, d); }, exec);
-    std::vector<Light> lights;
-    for (const SkyDirection& d : sky_directions(grid, sky.samples, SkyImportance::radiance))
-        lights.push_back(parallel(d.direction, d.irradiance_w_m2 * sky.ambient));
-    const Vec3f ground = model ? sky_radiance(*model, {0, -1, 0}) : sky.ground;
-    add_ground(ground * sky.ambient, sky_light_count(sky) - sky.samples, lights);
-    return lights;
+        f.model ? sky_grid(*f.model, exec) : sky_grid([&](Vec3d d) { return gradient(sky, d); }, exec);
+    // Where surfaces stand before it the sky's radiance is not what arrives: parts of it should not be large
+    // only because they are dark.
+    const SkyImportance importance = sky.bounces > 0 ? SkyImportance::root : SkyImportance::radiance;
+    for (const SkyDirection& d : sky_directions(grid, sky.samples, importance)) {
+        f.lights.push_back(parallel(d.direction, d.irradiance_w_m2 * sky.ambient));
+        f.solid_angle_sr.push_back(d.solid_angle_sr);
+    }
+    add_ground(sky_light_count(sky) - sky.samples, f);
 }
 
 }  // namespace
 
 int sky_light_count(const Sky& sky) {
+    if (sky.bounces > 0) return sky.samples + sky.samples / 2;
     return sky.samples + std::max(sky.samples / 16, least_ground_lights);
 }
 
@@ -90,7 +101,7 @@ FrameSky frame_sky(const Sky& sky, const Exec& exec) {
     f.sky = sky;
     f.model = model_of(sky, exec);
     f.shade = shade_sky(f.model ? gradient_of(sky, *f.model) : sky);
-    if (sky.occlusion && sky.ambient > 0) f.lights = lights_of(sky, f.model, exec);
+    if (sky.occlusion && sky.ambient > 0) add_lights(exec, f);
     return f;
 }
 

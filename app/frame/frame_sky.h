@@ -18,9 +18,10 @@ struct FrameSky {
     Sky sky;                        ///< what it was made for
     std::optional<SkyModel> model;  ///< none: a gradient
     ShadeSky shade;                 ///< what surfaces mirror, and a gradient's background
-    /// With occlusion: parallel lights, Sky::samples from above the horizon, and a sixteenth as many, at
-    /// least 4, from below, evenly.
+    /// With occlusion: parallel lights, Sky::samples from above the horizon, and from below, evenly, a
+    /// sixteenth as many, at least 4; half as many when surfaces send light on, most of which they hide.
     std::vector<Light> lights;
+    std::vector<double> solid_angle_sr;  ///< that each stands for
 };
 
 FrameSky frame_sky(const Sky& sky, const Exec& exec);

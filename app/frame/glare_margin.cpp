@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/num.h"
 #include "core/sky/air.h"
+#include "core/sky/image_sky.h"
 #include "core/sky/overcast_sky.h"
 #include "optics/aperture_extent.h"
 
@@ -55,6 +56,14 @@ float brightest_of(const Sky& sky) {
         case SkyKind::overcast:
             return largest(
                 overcast_sky(sky.sun_elevation_deg, sky.sun_above_air, to_double(sky.ground_albedo)).zenith);
+        case SkyKind::image: {
+            float most = 0;
+            if (sky.image) {
+                for (const Vec3f& p : sky.image->pixels.pixels)
+                    most = std::max(most, largest(p));
+            }
+            return most;
+        }
     }
     return 0;
 }

@@ -8,7 +8,7 @@
 #include "app/frame/shadow_text.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
-#include "hierarchy/build_memory.h"
+#include "hierarchy/codes/codes.h"
 
 namespace obscura {
 namespace {
@@ -21,16 +21,17 @@ std::uint64_t top_bytes(const ShadowTree& tree) {
     return tree.top ? tree.top->size() * sizeof(TopNode) : 0;
 }
 
-/// Nodes that a tree may have for its construction to stay within `bytes`: held twice while threads' parts
-/// are joined, and once serialised.
-std::uint64_t most_nodes(std::int64_t bytes) {
-    return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / node_construction_bytes);
+/// Nodes that a tree may have for its construction in this code to stay within `bytes`.
+std::uint64_t most_nodes(std::int64_t bytes, const ShadowCodeRow& code) {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / code.node_construction_bytes);
 }
 
 MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,
                         std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
                         const std::atomic<bool>* cancel) {
-    params.max_nodes = most_nodes(left_bytes);
+    const ShadowCodeRow& code = row_of(light.shadow.code);
+    params.max_nodes = most_nodes(left_bytes, code);
+    params.keep_intervals = code.wants_intervals;
     BuildStats of_view;
     try {
         MultiresTree tree = build_shadow_tree(mesh, view, params, exec, &of_view, cancel);
@@ -51,6 +52,7 @@ SceneLight shadow_part(SceneLight light) {
     static const SceneLight d;
     light.light.color = d.light.color;
     light.light.inner_cone_deg = d.light.inner_cone_deg;
+    light.light.path = d.light.path;
     light.shadow.max_magnification = d.shadow.max_magnification;  // has settled the resolution
     return light;
 }
@@ -93,7 +95,9 @@ bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed,
         }
         const Stopwatch encoding;
         EncodeParams encode;
+        encode.code = light.shadow.code;
         encode.layout = light.shadow.layout;
+        encode.exec = exec;
         encode.top_levels = std::min(light.shadow.top_levels, tree.levels);
         shadow.trees.push_back(encode_tree(tree, views[i], encode));
         shadow.stats.encode_s += encoding.seconds();
@@ -106,6 +110,8 @@ bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed,
 void count_trees(LightShadow& shadow) {
     shadow.stats.nodes = {};
     shadow.stats.bytes = 0;
+    shadow.stats.code_text =
+        shadow.trees.empty() ? "" : row_of(shadow.trees[0].code.code).text(shadow.trees[0]);
     for (const ShadowTree& tree : shadow.trees) {
         shadow.stats.nodes.full += tree.counts.full;
         shadow.stats.nodes.empty += tree.counts.empty;

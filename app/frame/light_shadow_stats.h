@@ -22,6 +22,8 @@ struct FoundResolution {
 struct LightShadowStats {
     std::string light;
     ShadowMethod method = ShadowMethod::map;
+    ShadowCode code = ShadowCode::mh;       ///< compressed: what trees are written in,
+    std::string code_text;                  ///< and in which of its ways, the first of them
     ShadowScope scope = ShadowScope::full;  ///< what was built: a frame that asks for too much gets all
     int resolution = 0;
     std::int64_t views = 0;

@@ -8,6 +8,7 @@
 #include "app/frame/glare_memory.h"
 #include "app/frame/lamp_pixels.h"
 #include "app/frame/shadow_memory.h"
+#include "app/frame/sun_hours.h"
 #include "app/frame/tile.h"
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
@@ -28,7 +29,7 @@ std::int64_t picture_bytes(const RenderSettings& render, const FrameOptions& wan
     const std::int64_t pixel = vector + code_bytes + (wanted.depth ? number : 0) +
                                (wanted.normal ? vector : 0) + (wanted.albedo ? vector : 0) +
                                (wanted.object ? number : 0) + (wanted.shadow ? number : 0) +
-                               (wanted.shift ? number : 0);
+                               (wanted.shift ? number : 0) + (wanted.sun_hours ? number : 0);
     return std::int64_t{render.width} * render.height * pixel;
 }
 
@@ -56,6 +57,12 @@ double mib(std::int64_t bytes) {
     return static_cast<double>(bytes) / (1 << 20);
 }
 
+/// Suns that hours of sun are counted of, with or without sun; none: not wanted.
+int suns_of(const Scene& scene, const FrameOptions& wanted) {
+    const Light* sun = wanted.sun_hours ? sun_with_path(scene) : nullptr;
+    return sun != nullptr ? sun->path->steps : 0;
+}
+
 }  // namespace
 
 MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
@@ -79,8 +86,11 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
         maps |= light.shadow.method != ShadowMethod::none && light.shadow.method != ShadowMethod::exact;
     }
-    e.shadow_maps += exact_casters_bytes(mesh, lights) + stacks_bytes(mesh, lights) +
-                     soft_passes_bytes(mesh, lights, scene.sky, wide);
+    // Hours of sun come after the picture, pass after pass as lights with a size do.
+    const int suns = suns_of(scene, known.channels);
+    e.shadow_maps +=
+        exact_casters_bytes(mesh, lights) + stacks_bytes(mesh, lights) +
+        std::max(soft_passes_bytes(mesh, lights, scene.sky, wide), sun_hours_pass_bytes(mesh, suns));
     e.stacks = stacks_bytes(mesh, lights) + making_stacks_bytes(mesh, lights);
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
@@ -88,9 +98,11 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         std::max(shadow_work_bytes(mesh, lights, wide), exact_work_bytes(mesh, lights, scene.sky));
     const std::int64_t picture =
         picture_bytes(wide, known.channels) +
-        glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px);
+        std::max(glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px),
+                 suns > 0 ? sun_hours_sums_bytes(scene.render) : 0);
     e.frame = prepared_bytes(mesh, wide) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
-              exact_tiles_bytes(lights, scene.sky) + std::max(making, making / 4 + picture);
+              std::max(exact_tiles_bytes(lights, scene.sky), sun_hours_tiles_bytes(mesh, suns)) +
+              std::max(making, making / 4 + picture);
     e.frame += allocator_bytes(e.total() - dense);
     return e;
 }

@@ -8,7 +8,9 @@
 #include "app/frame/memory.h"
 #include "app/frame/shadows.h"
 #include "app/frame/source_kernels.h"
+#include "app/frame/sun_hours.h"
 #include "app/frame/tiles.h"
+#include "core/mesh_memory.h"
 #include "core/stopwatch.h"
 #include "raster/lighting.h"
 
@@ -21,6 +23,40 @@ Region crop_of(const Region& whole, const FrameOptions& options) {
     CHECK(c.x0 >= 0 && c.y0 >= 0 && c.x0 + c.width <= whole.width && c.y0 + c.height <= whole.height,
           fmt::format("crop {},{} {}x{} of {}x{}", c.x0, c.y0, c.width, c.height, whole.width, whole.height));
     return c;
+}
+
+/// Radiance and the channels of the same pass over the tiles, with glare.
+void render_radiance(const Scene& scene, const TileScene& tiles, const FrameOptions& options,
+                     const Exec& exec, std::optional<KeptPsf>& psf, Frame& frame) {
+    const Stopwatch shade;
+    const Region whole{0, 0, tiles.view.width, tiles.view.height}, crop = crop_of(whole, options);
+    // Glare comes from anywhere: it takes the whole picture with its margin, and what the pixels show where
+    // kernels differ.
+    FrameOptions wanted = options;
+    wanted.depth |= wants_source_kernels(scene.optics);
+    wanted.object |= wants_source_kernels(scene.optics);
+    wanted.shift |= tiles.surface.seen != nullptr && wants_source_kernels(scene.optics);
+    size_frame(scene.optics.enabled ? tiles.bins->region : crop, wanted, frame);
+    // A pattern may take longer than the picture: half of the progress is its own.
+    const bool has_glare = scene.optics.enabled && options.progress;
+    const double picture_share = has_glare ? 0.5 : 1.0,
+                 first_share = picture_share / (1 + soft_passes(tiles));
+    if (options.progress) wanted.progress = [&](double share) { options.progress(first_share * share); };
+    render_tiles(tiles, wanted, exec, frame);
+    if (options.progress) {
+        wanted.progress = [&](double share) {
+            options.progress(first_share + (picture_share - first_share) * share);
+        };
+    }
+    if (frame.complete) add_soft_lights(tiles, wanted, exec, frame);
+    frame.stats.tiles_s = shade.seconds();
+    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 + 0.5 * share); };
+    if (frame.complete) add_frame_glare(scene, wanted, exec, psf, frame);
+    if (has_glare && frame.complete) options.progress(1);
+    if (!options.depth) frame.depth_m = {};
+    if (!options.object) frame.object = {};
+    if (!options.shift) frame.shift_px = {};
+    if (scene.optics.enabled) crop_frame(crop, frame);
 }
 
 }  // namespace
@@ -79,35 +115,20 @@ TileScene prepare_tiles(const Scene& scene, const Exec& exec, FrameCache& cache)
 
 void render_picture(const Scene& scene, const TileScene& tiles, const FrameOptions& options, const Exec& exec,
                     std::optional<KeptPsf>& psf, Frame& frame) {
-    const Stopwatch shade;
-    const Region whole{0, 0, tiles.view.width, tiles.view.height}, crop = crop_of(whole, options);
-    // Glare comes from anywhere: it takes the whole picture with its margin, and what the pixels show where
-    // kernels differ.
-    FrameOptions wanted = options;
-    wanted.depth |= wants_source_kernels(scene.optics);
-    wanted.object |= wants_source_kernels(scene.optics);
-    wanted.shift |= tiles.surface.seen != nullptr && wants_source_kernels(scene.optics);
-    size_frame(scene.optics.enabled ? tiles.bins->region : crop, wanted, frame);
-    // A pattern may take longer than the picture: half of the progress is its own.
-    const bool has_glare = scene.optics.enabled && options.progress;
-    const double picture_share = has_glare ? 0.5 : 1.0,
-                 first_share = picture_share / (1 + soft_passes(tiles));
-    if (options.progress) wanted.progress = [&](double share) { options.progress(first_share * share); };
-    render_tiles(tiles, wanted, exec, frame);
-    if (options.progress) {
-        wanted.progress = [&](double share) {
-            options.progress(first_share + (picture_share - first_share) * share);
-        };
-    }
-    if (frame.complete) add_soft_lights(tiles, wanted, exec, frame);
-    frame.stats.tiles_s = shade.seconds();
-    if (has_glare) wanted.progress = [&](double share) { options.progress(0.5 + 0.5 * share); };
-    if (frame.complete) add_frame_glare(scene, wanted, exec, psf, frame);
-    if (has_glare && frame.complete) options.progress(1);
-    if (!options.depth) frame.depth_m = {};
-    if (!options.object) frame.object = {};
-    if (!options.shift) frame.shift_px = {};
-    if (scene.optics.enabled) crop_frame(crop, frame);
+    const Light* sun = options.sun_hours ? sun_with_path(scene) : nullptr;
+    CHECK(sun != nullptr || !options.sun_hours, "hours of sun need a sun");
+    frame.sun_hours = {};
+    // A pass is told as one of all.
+    const double of_hours =
+        sun != nullptr ? sun_passes(size_of(*tiles.casters), static_cast<int>(sun_steps(*sun->path).size()))
+                       : 0;
+    const double share = (1 + soft_passes(tiles)) / (1 + soft_passes(tiles) + of_hours);
+    FrameOptions part = options;
+    if (options.progress) part.progress = [&](double done) { options.progress(share * done); };
+    render_radiance(scene, tiles, part, exec, psf, frame);
+    if (sun == nullptr || !frame.complete) return;
+    if (options.progress) part.progress = [&](double done) { options.progress(share + (1 - share) * done); };
+    add_sun_hours(tiles, *sun, part, exec, frame);
 }
 
 void render_frame(const Scene& scene, const FrameOptions& options, const Exec& exec, FrameCache& cache,

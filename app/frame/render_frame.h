@@ -8,11 +8,12 @@
 #include "app/frame/frame_sky.h"
 #include "app/frame/glare.h"
 #include "app/frame/light_shadow.h"
+#include "app/frame/surface_light.h"
 #include "app/frame/tile.h"
 #include "app/scene/file_access.h"
 #include "app/scene/scene.h"
 #include "core/isa.h"
-#include "hierarchy/tree_file.h"
+#include "hierarchy/codes/tree_file.h"
 #include "raster/surface.h"
 
 namespace obscura {
@@ -26,10 +27,11 @@ struct FrameCache {
     /// Of the lights with shadows, in scene order. One is kept while its light stays, colour aside; when it
     /// was built for one picture (scope "frame"), also only while the camera stays.
     std::vector<LightShadow> shadows;
-    std::optional<FrameSky> sky;          ///< once the scene's is more than a gradient seen by everything
-    FileAccess access;                    ///< where shadow caches may lie
-    std::optional<TreeFileKey> geometry;  ///< geometry_key() of the mesh, once a cache asks
-    std::optional<KeptPsf> psf;           ///< of the lens, once something glared
+    std::optional<FrameSky> sky;           ///< once the scene's is more than a gradient seen by everything
+    std::optional<KeptSurfaceLight> sent;  ///< with bounces
+    FileAccess access;                     ///< where shadow caches may lie
+    std::optional<TreeFileKey> geometry;   ///< geometry_key() of the mesh, once a cache asks
+    std::optional<KeptPsf> psf;            ///< of the lens, once something glared
     RasterScratch camera_scratch, light_scratch;
     void forget() { *this = FrameCache{}; }
 };

@@ -126,6 +126,8 @@ TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
         hasher.add(view.perspective);
     }
     hasher.add(light.shadow.receivers);
+    // Keys of mh are those of before there were other codes.
+    if (light.shadow.code != ShadowCode::mh) hasher.add(light.shadow.code);
     hasher.add(light.shadow.layout);
     hasher.add(light.shadow.top_levels);
     return hasher.key();

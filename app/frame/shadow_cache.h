@@ -8,9 +8,9 @@
 
 #include "app/scene/file_access.h"
 #include "app/scene/scene.h"
+#include "hierarchy/codes/tree_file.h"
 #include "hierarchy/shadow_tree.h"
 #include "hierarchy/stack/stack.h"
-#include "hierarchy/tree_file.h"
 
 namespace obscura {
 

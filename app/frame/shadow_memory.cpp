@@ -7,9 +7,11 @@
 #include "app/frame/needed_texels.h"
 #include "app/frame/soft_light.h"
 #include "app/frame/stack_shadow.h"
+#include "app/frame/sun_hours.h"
+#include "app/frame/surface_light.h"
 #include "core/parallel.h"
 #include "hierarchy/build_memory.h"
-#include "hierarchy/tree_code.h"
+#include "hierarchy/codes/codes.h"
 #include "raster/exact/casters.h"
 #include "raster/exact/soft_casters.h"
 #include "raster/gbuffer.h"
@@ -38,6 +40,10 @@ std::int64_t disc_bytes(const MeshSize& mesh, const SceneLight& light, const Ren
 
 bool is_occluded(const Sky& sky) {
     return sky.occlusion && sky.ambient > 0;
+}
+
+bool sends_on(const Sky& sky) {
+    return is_occluded(sky) && sky.bounces > 0;
 }
 
 /// Nodes of one view's tree, all of it. A model, not a bound: they grow with the length of the outlines on
@@ -83,7 +89,8 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
 }
 
 std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky) {
-    return any_exact(lights) || is_occluded(sky) ? casters_sorting_bytes(mesh.triangles) : 0;
+    if (!any_exact(lights) && !is_occluded(sky)) return 0;
+    return casters_sorting_bytes(mesh.triangles) + (sends_on(sky) ? surface_light_work_bytes(mesh) : 0);
 }
 
 std::int64_t stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
@@ -108,7 +115,7 @@ std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sk
     if (!any_exact(lights) && !is_occluded(sky)) return 0;
     const bool soft = is_occluded(sky) || std::any_of(lights.begin(), lights.end(), is_soft);
     const std::size_t together = std::max<std::size_t>(lights.size(), soft ? most_soft_together : 0);
-    return hardware_threads() * exact_tile_bytes(together);
+    return hardware_threads() * exact_tile_bytes(together, sends_on(sky));
 }
 
 std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky,
@@ -120,7 +127,21 @@ std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight>
         if (is_soft(light))
             most = std::max(most, is_parallel(light.light.kind) ? disc_bytes(mesh, light, render) : own);
     }
-    return most;
+    return most + (sends_on(sky) ? surface_light_bytes(mesh) : 0);
+}
+
+std::int64_t sun_hours_pass_bytes(const MeshSize& mesh, int steps) {
+    if (steps == 0) return 0;
+    return sun_pass_bytes(mesh, steps) + setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles);
+}
+
+std::int64_t sun_hours_tiles_bytes(const MeshSize& mesh, int steps) {
+    if (steps == 0) return 0;
+    return hardware_threads() * exact_tile_bytes(static_cast<std::size_t>(suns_together(mesh, steps)));
+}
+
+std::int64_t sun_hours_sums_bytes(const RenderSettings& render) {
+    return std::int64_t{render.width} * render.height * (sizeof(double) + sizeof(std::uint8_t));
 }
 
 int shadow_map_count(const SceneLight& light) {
@@ -166,7 +187,7 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
         most = std::max(most, squares);
         // One view's tree at a time.
         const std::int64_t nodes = built_nodes(light, render) / std::max(shadow_map_count(light), 1);
-        work = std::max(work, construction_bytes(mesh) + nodes * node_construction_bytes);
+        work = std::max(work, construction_bytes(mesh) + nodes * row_of(s.code).node_construction_bytes);
     }
     return lists + std::max(work, most * 2 * word_bytes);
 }

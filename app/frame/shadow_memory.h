@@ -23,6 +23,12 @@ std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sk
 std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky,
                                const RenderSettings& render);
 
+/// What hours of sun hold of `steps` suns: a pass over the tiles, with what is set up meanwhile; the tiles
+/// that threads have in work; and sums of the picture's pixels.
+std::int64_t sun_hours_pass_bytes(const MeshSize& mesh, int steps);
+std::int64_t sun_hours_tiles_bytes(const MeshSize& mesh, int steps);
+std::int64_t sun_hours_sums_bytes(const RenderSettings& render);
+
 /// Maps of a light: none without shadows, six for a point light; and the bytes that lookups read of them when
 /// all of them is built, exact for dense maps, expected for compressed ones.
 int shadow_map_count(const SceneLight& light);

@@ -75,8 +75,8 @@ std::string shadow_text(const LightShadowStats& s) {
         fmt::format(", {}, {}{}\n", s.scope == ShadowScope::frame ? "what the frame looks up" : "all of it",
                     bytes, origin);
     const BuildStats& b = s.build;
-    out += fmt::format("    nodes_full {} nodes_empty {} nodes_leaf {}, needed {}\n", s.nodes.full,
-                       s.nodes.empty, s.nodes.leaf, s.needed);
+    out += fmt::format("    nodes_full {} nodes_empty {} nodes_leaf {}, needed {}, {}: {}\n", s.nodes.full,
+                       s.nodes.empty, s.nodes.leaf, s.needed, name_of(s.code), s.code_text);
     out += fmt::format(
         "    nodes_visited {} certified_cover {} certified_mesh {} texels_rasterized {} list_operations {}\n",
         b.nodes_visited, b.certified_cover, b.certified_mesh, b.texels_rasterized, b.list_operations);

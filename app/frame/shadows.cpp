@@ -50,7 +50,10 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
     stats.views = shadow_view_count(light.light.kind);
     stats.found = found;
     if (light.shadow.method == ShadowMethod::stack) stats.views = stats.samples = light.shadow.samples;
-    if (light.shadow.method == ShadowMethod::compressed) stats.scope = light.shadow.scope;
+    if (light.shadow.method == ShadowMethod::compressed) {
+        stats.scope = light.shadow.scope;
+        stats.code = light.shadow.code;
+    }
     return stats;
 }
 
@@ -90,26 +93,6 @@ bool build_trees(const Work& work, const std::vector<NeededNodes>* needed, std::
     check_shadow_cache(file);
     if (!build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel)) return false;
     save_shadow_cache(file, shadow.trees, key);
-    return true;
-}
-
-/// Reads the stack from its file, or makes it and writes the file.
-bool make_stack(const Work& work, std::int64_t most_bytes, LightShadow& shadow) {
-    const SceneLight& light = shadow.light;
-    const FocusedViews views =
-        stack_views(work.scene.mesh, plan_stack(work.scene.mesh, light), light.shadow.resolution);
-    if (light.shadow.cache.empty())
-        return build_light_stack(work.scene.mesh, views, work.exec, most_bytes, shadow, work.cancel);
-    const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
-    const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
-    if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
-    const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
-    const std::string notice = read_light_stack(file, key, views, shadow);
-    if (!notice.empty()) work.stats.notices.push_back(notice);
-    if (shadow.stack) return true;
-    check_shadow_cache(file);
-    if (!build_light_stack(work.scene.mesh, views, work.exec, most_bytes, shadow, work.cancel)) return false;
-    save_shadow_cache(file, *shadow.stack, key);
     return true;
 }
 
@@ -224,7 +207,9 @@ bool build_shadow(const Work& work, const std::vector<std::optional<std::vector<
                   std::size_t& next_needed, std::int64_t most_bytes, LightShadow& shadow) {
     if (shadow.light.shadow.method == ShadowMethod::map) return build_map(work, shadow);
     if (shadow.light.shadow.method == ShadowMethod::exact) return build_exact(work, shadow);
-    if (shadow.light.shadow.method == ShadowMethod::stack) return make_stack(work, most_bytes, shadow);
+    if (shadow.light.shadow.method == ShadowMethod::stack)
+        return make_light_stack(work.scene.mesh, work.exec, most_bytes, work.cache, work.stats.notices,
+                                shadow, work.cancel);
     if (shadow.light.shadow.scope == ShadowScope::full) return build_trees(work, nullptr, most_bytes, shadow);
     const auto& of_light = needed[next_needed++];
     if (!of_light) {
@@ -310,19 +295,41 @@ void settle_soft_lights(const Work& work) {
     }
 }
 
-/// The sky that the pictures show and are lit by.
-void give_sky(const Scene& scene, const Exec& exec, FrameCache& cache, std::span<TileScene> pictures) {
+/// What surfaces send on. False when cancelled.
+bool give_sent_light(const Scene& scene, const Exec& exec, FrameCache& cache, std::span<TileScene> pictures,
+                     const std::atomic<bool>* cancel) {
+    const bool kept = cache.sent && cache.sent->sky == scene.sky && cache.sent->lights == scene.lights &&
+                      cache.sent->materials == scene.materials;
+    if (!kept) {
+        cache.sent = {surface_light(scene, *cache.sky, exec, cancel), scene.lights, scene.materials,
+                      scene.sky};
+        if (cache.sent->light.empty()) {
+            cache.sent.reset();
+            return false;
+        }
+    }
+    for (TileScene& tiles : pictures)
+        tiles.sent = &cache.sent->light;
+    return true;
+}
+
+/// The sky that the pictures show and are lit by. False when cancelled.
+bool give_sky(const Scene& scene, const Exec& exec, FrameCache& cache, std::span<TileScene> pictures,
+              const std::atomic<bool>* cancel) {
     const Sky& sky = scene.sky;
-    if (sky.kind == SkyKind::gradient && !sky.occlusion) return;
+    if (sky.kind == SkyKind::gradient && !sky.occlusion) return true;
     if (!cache.sky || cache.sky->sky != sky) cache.sky = frame_sky(sky, exec);
+    const bool lights = !cache.sky->lights.empty() && !scene.mesh.triangles.empty();
     for (TileScene& tiles : pictures) {
         tiles.sky = cache.sky->shade;
         tiles.sky_model = cache.sky->model ? &*cache.sky->model : nullptr;
-        if (cache.sky->lights.empty() || scene.mesh.triangles.empty()) continue;
+        if (!lights) continue;
         SoftLight& soft = tiles.soft.emplace_back();
         soft.is_sky = true;
         soft.points = cache.sky->lights;
+        soft.solid_angle_sr = cache.sky->solid_angle_sr;
     }
+    return !lights || sky.bounces == 0 || give_sent_light(scene, exec, cache, pictures, cancel);
 }
 
 }  // namespace
@@ -367,7 +374,7 @@ bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& e
     const Stopwatch watch;
     for (TileScene& tiles : pictures)
         tiles.casters = &scene.mesh;
-    give_sky(scene, exec, cache, pictures);
+    if (!give_sky(scene, exec, cache, pictures, cancel)) return false;
     // A scene without geometry has nothing to cast or to receive.
     if (cache.bounds.empty()) return true;
     const Work work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats,

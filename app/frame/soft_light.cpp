@@ -61,12 +61,12 @@ class Pass {
     Pass(const TileScene& tiles, const SoftLight& soft, int stratum, int begin, int count)
         : light_(soft), tiles_(dark(tiles)) {
         const int m = strata(soft, tiles), of_sample = static_cast<int>(soft.points.size()) / m;
-        const auto point = [&](int i) -> const Light& {
-            return soft.points[static_cast<std::size_t>(stratum) +
-                               static_cast<std::size_t>(i) * static_cast<std::size_t>(m)];
-        };
-        for (int i = begin; i < begin + count; ++i)
+        const auto at = [&](int i) { return static_cast<std::size_t>(stratum + i * m); };
+        const auto point = [&](int i) -> const Light& { return soft.points[at(i)]; };
+        for (int i = begin; i < begin + count; ++i) {
             points_.push_back(point(i));
+            if (soft.is_sky) solid_angle_sr_.push_back(soft.solid_angle_sr[at(i)]);
+        }
         pass_.light = &soft;
         pass_.first = stratum;
         pass_.stride = m;
@@ -122,10 +122,13 @@ class Pass {
         // Of a pixel's samples only one in `stride` asks this point.
         for (float& c : to.shade.color)
             c *= static_cast<float>(pass_.stride);
+        if (light_.is_sky)
+            to.solid_angle_sr = solid_angle_sr_[tiles_.lights.size() - 1] * static_cast<double>(pass_.stride);
     }
 
     const SoftLight& light_;
     std::vector<Light> points_;
+    std::vector<double> solid_angle_sr_;
     std::vector<std::vector<Casters>> casters_;
     SoftParts parts_;
     ExactSoft soft_;

@@ -26,7 +26,8 @@ struct SoftLight {
     std::size_t scene_light = 0;  ///< index into Scene::lights
     std::size_t shadow = 0;       ///< and among those with shadows
     Light whole;
-    std::vector<Light> points;  ///< light_samples() of it
+    std::vector<Light> points;           ///< light_samples() of it
+    std::vector<double> solid_angle_sr;  ///< of the sky's
     bool is_sky = false;  ///< they are the sky's (FrameSky::lights), not one light's, and count in no AOV
     std::optional<ExactLight> middle;  ///< parallel light: for all points at once
 };

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/frame/render_frame.h"
 #include "app/frame/shadow_cache.h"
 #include "core/error.h"
 #include "core/num.h"
@@ -242,6 +243,25 @@ std::string read_light_stack(const std::filesystem::path& file, const TreeFileKe
     shadow.stats.from_cache = true;
     count_stack(shadow);
     return notice;
+}
+
+bool make_light_stack(const Mesh& mesh, const Exec& exec, std::int64_t most_bytes, FrameCache& cache,
+                      std::vector<std::string>& notices, LightShadow& shadow,
+                      const std::atomic<bool>* cancel) {
+    const SceneLight& light = shadow.light;
+    const FocusedViews views = stack_views(mesh, plan_stack(mesh, light), light.shadow.resolution);
+    if (light.shadow.cache.empty()) return build_light_stack(mesh, views, exec, most_bytes, shadow, cancel);
+    const auto folder = shadow_cache_folder(cache.access, light.shadow.cache);
+    const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
+    if (!cache.geometry) cache.geometry = geometry_key(mesh);
+    const TreeFileKey key = shadow_key(*cache.geometry, light, views);
+    const std::string notice = read_light_stack(file, key, views, shadow);
+    if (!notice.empty()) notices.push_back(notice);
+    if (shadow.stack) return true;
+    check_shadow_cache(file);
+    if (!build_light_stack(mesh, views, exec, most_bytes, shadow, cancel)) return false;
+    save_shadow_cache(file, *shadow.stack, key);
+    return true;
 }
 
 std::int64_t stack_bytes(const SceneLight& light, std::int64_t triangles) {

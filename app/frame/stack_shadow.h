@@ -11,8 +11,8 @@
 #include "app/frame/light_shadow.h"
 #include "core/isa.h"
 #include "core/mesh.h"
+#include "hierarchy/codes/tree_file.h"
 #include "hierarchy/stack/focus.h"
-#include "hierarchy/tree_file.h"
 
 namespace obscura {
 
@@ -50,6 +50,14 @@ bool build_light_stack(const Mesh& mesh, const FocusedViews& views, const Exec& 
 /// could not be used, empty otherwise.
 std::string read_light_stack(const std::filesystem::path& file, const TreeFileKey& key,
                              const FocusedViews& views, LightShadow& shadow);
+
+struct FrameCache;
+
+/// The stack of shadow.light: read from its file, or built and written there; `notices` as
+/// read_light_stack(). `cache`: where files may lie, and the mesh's key.
+bool make_light_stack(const Mesh& mesh, const Exec& exec, std::int64_t most_bytes, FrameCache& cache,
+                      std::vector<std::string>& notices, LightShadow& shadow,
+                      const std::atomic<bool>* cancel);
 
 /// Expected bytes of a finished stack, and of what making it holds beside that, with so many triangles that
 /// cast shadows. While its resolution is to be found, of the finest there may be.

@@ -144,9 +144,12 @@ void shade_sky(const TileScene& scene, const ExactBlock& exact, Isa isa, TileWor
         ShadeSkyPart part;
         std::copy_n(scene.lights[l].shade.to_light, 3, part.to_light);
         std::copy_n(scene.lights[l].shade.color, 3, part.color);
+        part.per_sr = static_cast<float>(1 / scene.lights[l].solid_angle_sr);
         std::fill_n(work.visibility, block_samples, 1.0f);
         exact.tile->darken(l, exact.k, exact.first_row, work.visibility);
-        OBSCURA_DISPATCH(isa, shade_sky_part, work.surface, part, work.visibility, work.shade);
+        if (scene.sent != nullptr) exact.tile->gather(scene, l, exact.first_row, work.sent);
+        OBSCURA_DISPATCH(isa, shade_sky_part, work.surface, part, work.visibility,
+                         scene.sent != nullptr ? &work.sent : nullptr, work.shade);
     }
 }
 

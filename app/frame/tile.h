@@ -24,6 +24,7 @@
 namespace obscura {
 
 class ExactTile;
+struct SurfaceLight;
 
 /// A light that shines on this frame.
 struct TileLight {
@@ -35,6 +36,7 @@ struct TileLight {
     std::optional<StackLight> stack;  ///< of a light with a size: alone, in place of `shade`, too
     std::size_t scene_light = 0;      ///< index into Scene::lights
     std::size_t shadow = 0;           ///< and among those with shadows, when it casts some
+    double solid_angle_sr = 0;        ///< of a part of the sky
 
     bool casts_shadows() const { return pcf || exact || stack; }
 };
@@ -55,6 +57,7 @@ struct TileScene {
     std::vector<SoftLight> soft;     ///< lights with a size, which are not among `lights`
     const SoftPass* pass = nullptr;  ///< the tiles add what `lights` shed to a picture that is there
     ShadeSky sky;
+    const SurfaceLight* sent = nullptr;   ///< what hides a part of the sky sends instead; null: nothing
     const SkyModel* sky_model = nullptr;  ///< what is seen behind everything; null: `sky`
     std::span<const SamplePosition> pattern;
     bool textured = false;  ///< some material has a texture
@@ -71,6 +74,9 @@ struct TileScene {
         return static_cast<int>(own + sized);
     }
 
+    /// Whether the lights are parts of a sky and what hides them sends light instead.
+    bool gathers() const { return sent != nullptr && pass != nullptr && pass->light->is_sky; }
+
     bool has_exact() const {
         return std::any_of(lights.begin(), lights.end(),
                            [](const TileLight& l) { return l.exact.has_value(); });
@@ -85,6 +91,7 @@ struct TileWork {
     ShadeBlock shade;
     alignas(64) float visibility[block_samples];
     alignas(64) float shadow_sum[block_samples];
+    ShadeSent sent;
     alignas(64) float r[frame_tile_side * frame_tile_side];
     alignas(64) float g[frame_tile_side * frame_tile_side];
     alignas(64) float b[frame_tile_side * frame_tile_side];

@@ -35,6 +35,18 @@ class ProgressMeter {
     std::mutex mutex_;
 };
 
+/// The tiles that the frame's pixels lie in.
+struct TileGrid {
+    int column0, row0, columns, rows;
+};
+
+TileGrid grid_of(const TileScene& scene, const Frame& frame) {
+    const int x0 = frame.x0 - scene.bins->region.x0, y0 = frame.y0 - scene.bins->region.y0;
+    const int column0 = x0 / frame_tile_side, row0 = y0 / frame_tile_side;
+    return {column0, row0, (x0 + frame.width - 1) / frame_tile_side - column0 + 1,
+            (y0 + frame.height - 1) / frame_tile_side - row0 + 1};
+}
+
 }  // namespace
 
 void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
@@ -51,29 +63,49 @@ void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
     set_channel(frame.shadow, options.shadow, frame);
 }
 
-void render_tiles(const TileScene& scene, const FrameOptions& options, const Exec& exec, Frame& frame) {
-    const int x0 = frame.x0 - scene.bins->region.x0, y0 = frame.y0 - scene.bins->region.y0;
-    const int column0 = x0 / frame_tile_side, row0 = y0 / frame_tile_side;
-    const int columns = (x0 + frame.width - 1) / frame_tile_side - column0 + 1;
-    const int rows = (y0 + frame.height - 1) / frame_tile_side - row0 + 1;
-    const auto tiles = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+std::size_t tile_count(const TileScene& scene, const Frame& frame) {
+    const TileGrid grid = grid_of(scene, frame);
+    return static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
+}
+
+bool walk_tiles(const TileScene& scene, const FrameOptions& options, const Exec& exec, const Frame& frame,
+                const std::function<void(std::size_t, const TilePlace&)>& visit) {
+    const TileGrid grid = grid_of(scene, frame);
+    const std::size_t tiles = tile_count(scene, frame);
     ProgressMeter meter(options.progress, tiles);
-    std::vector<std::int64_t> covered(tiles, 0);
-    const std::size_t lights = scene.lights.size();
-    std::vector<double> lookup_s(tiles * lights, 0.0);
     std::atomic<bool> skipped = false;
-    const bool has_exact = scene.has_exact();
-    ExactTilePool pool(lights);
-    std::vector<ExactCounts> counts(tiles);
     parallel_for(tiles, exec, [&](std::size_t i) {
         if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
             skipped = true;
             return;
         }
+        TilePlace place;
+        place.column = grid.column0 + static_cast<int>(i) % grid.columns;
+        place.row = grid.row0 + static_cast<int>(i) / grid.columns;
+        place.frame_x = scene.bins->region.x0 + place.column * frame_tile_side - frame.x0;
+        place.frame_y = scene.bins->region.y0 + place.row * frame_tile_side - frame.y0;
+        place.x0 = std::max(-place.frame_x, 0);
+        place.y0 = std::max(-place.frame_y, 0);
+        place.x1 = std::min(frame.width - place.frame_x, frame_tile_side);
+        place.y1 = std::min(frame.height - place.frame_y, frame_tile_side);
+        visit(i, place);
+        meter.tile_done();
+    });
+    return !skipped;
+}
+
+void render_tiles(const TileScene& scene, const FrameOptions& options, const Exec& exec, Frame& frame) {
+    const std::size_t tiles = tile_count(scene, frame);
+    std::vector<std::int64_t> covered(tiles, 0);
+    const std::size_t lights = scene.lights.size();
+    std::vector<double> lookup_s(tiles * lights, 0.0);
+    const bool has_exact = scene.has_exact();
+    ExactTilePool pool(lights, scene.gathers());
+    std::vector<ExactCounts> counts(tiles);
+    frame.complete = walk_tiles(scene, options, exec, frame, [&](std::size_t i, const TilePlace& place) {
         TileWork work;  // not initialised: every stage writes what the next one reads
         work.lookup_s = std::span(lookup_s).subspan(i * lights, lights);
-        const int column = column0 + static_cast<int>(i) % columns,
-                  row = row0 + static_cast<int>(i) / columns;
+        const auto [column, row] = std::pair{place.column, place.row};
         std::unique_ptr<ExactTile> exact = has_exact ? pool.take() : nullptr;
         if (scene.pass != nullptr) {
             add_tile(scene, column, row, options.shadow, exec.isa, work, *exact, frame);
@@ -82,9 +114,7 @@ void render_tiles(const TileScene& scene, const FrameOptions& options, const Exe
         }
         counts[i] = work.exact_counts;
         if (exact) pool.give_back(std::move(exact));
-        meter.tile_done();
     });
-    frame.complete = !skipped;
     for (const std::int64_t n : covered)
         frame.stats.covered_samples += n;
     for (const ExactCounts& n : counts)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "app/report/sun_hours_picture.h"
 #include "core/color.h"
 #include "core/error.h"
 #include "core/image_io.h"
@@ -77,6 +78,9 @@ std::string png_bytes(const Frame& frame, Aov aov, const RenderSettings& render,
             return encode_png(mapped<std::uint16_t>(frame.shadow.view(), [](float v) {
                                   return code16(v, white16);
                               }).view());
+        case Aov::sun_hours:
+            CHECK(frame.stats.sun_hours.has_value());
+            return encode_png(sun_hours_picture(frame.sun_hours.view(), *frame.stats.sun_hours).view());
         case Aov::depth:
             break;
     }
@@ -100,6 +104,8 @@ std::string pfm_bytes(const Frame& frame, Aov aov) {
                               }).view());
         case Aov::shadow:
             return encode_pfm(frame.shadow.view());
+        case Aov::sun_hours:
+            return encode_pfm(frame.sun_hours.view());
     }
     CHECK(false, "no such channel");
     return {};

@@ -30,7 +30,7 @@ struct PictureFile {
 ///
 /// .pfm has the numbers themselves, linear floats: beauty radiance before exposure, W / (m^2 sr); depth in
 /// metres along the view axis, infinity where nothing is; world-space normals; albedo; the object's index,
-/// -1 where nothing is; shadow visibility in [0, 1].
+/// -1 where nothing is; shadow visibility in [0, 1]; hours of sun, NaN where nothing is.
 ///
 /// .png maps them:
 ///  - beauty: exposure, tone curve, 8-bit sRGB;
@@ -39,7 +39,8 @@ struct PictureFile {
 ///  - normal: 8 bits per channel, 255 * (0.5 + 0.5 n), 128 where nothing is;
 ///  - albedo: 8-bit sRGB;
 ///  - object: a colour made from the object's index, black where nothing is;
-///  - shadow: 16-bit grey, 65535 is full light.
+///  - shadow: 16-bit grey, 65535 is full light;
+///  - sun_hours: colours with their scale below (sun_hours_picture.h).
 PictureFile encode_picture(const Frame& frame, Aov aov, FileKind kind, const RenderSettings& render,
                            const Exec& exec);
 

@@ -260,7 +260,7 @@ Vec3f PixelStory::soft_sample(const TileScene& pass, int x, int y, std::size_t s
     const TileRect tile = tile_visibility(pass, column, row, pass.pattern[sample], exec_.isa, *work_);
     const int first_row = (y - tile.y0) / block_rows * block_rows;
     const int at = (y - tile.y0 - first_row) * frame_tile_side + (x - tile.x0);
-    ExactTile exact(pass.lights.size());
+    ExactTile exact(pass.lights.size(), pass.gathers());
     exact.run(pass, column, row, static_cast<int>(sample), 1, first_row, first_row + block_rows, exec_.isa,
               *work_);
     exact.restore(0, *work_);

@@ -1,5 +1,6 @@
 #include "app/report/render_stats.h"
 
+#include "app/frame/sun_hours_text.h"
 #include "app/scene/aov.h"
 
 namespace obscura {
@@ -51,6 +52,15 @@ void put_glare(JsonWriter& json, const GlareStats& s) {
     json.member("captured", s.captured).end_object();
 }
 
+void put_sun_hours(JsonWriter& json, const SunHoursStats& s) {
+    json.key("sun_hours").begin_object();
+    json.member("light", s.light).member("date", date_text(s.path));
+    json.member("steps", s.path.steps).member("suns", s.suns).member("passes", s.passes);
+    json.member("sunlit_h", s.sunlit_h()).member("order_s", s.order_s).member("total_s", s.total_s);
+    json.member("exact_samples", s.exact.samples).member("exact_groups", s.exact.groups);
+    json.member("exact_triangles", s.exact.triangles).end_object();
+}
+
 std::int64_t count(std::uint64_t n) {
     return static_cast<std::int64_t>(n);
 }
@@ -76,6 +86,7 @@ void put_light(JsonWriter& json, const LightShadowStats& s) {
     }
     if (s.method == ShadowMethod::compressed) {
         const BuildStats& b = s.build;
+        json.member("code", name_of(s.code));
         json.member("scope", s.scope == ShadowScope::frame ? "frame" : "full");
         json.member("from_cache", s.from_cache).member("needed", s.needed);
         json.member("nodes_full", count(s.nodes.full)).member("nodes_empty", count(s.nodes.empty));
@@ -120,6 +131,7 @@ std::string stats_json(const RenderReport& report) {
             put_light(json, light);
         json.end_list();
         if (frame.stats.glare) put_glare(json, *frame.stats.glare);
+        if (frame.stats.sun_hours) put_sun_hours(json, *frame.stats.sun_hours);
         json.key("files").begin_list();
         for (const WrittenFile& file : frame.files)
             put_file(json, file);

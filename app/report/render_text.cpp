@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/frame/shadow_text.h"
+#include "app/frame/sun_hours_text.h"
 #include "core/count_text.h"
 #include "core/edges.h"
 
@@ -68,6 +69,7 @@ std::string frame_text(const FrameReport& report, int verbosity) {
     std::string out =
         fmt::format("frame {} in {:.2f} s: {}\n", report.frame, report.stats.total_s + report.write_s, files);
     if (verbosity > 0) out += stages_text(report);
+    if (report.stats.sun_hours) out += sun_hours_text(*report.stats.sun_hours, verbosity);
     if (verbosity > 0 && report.stats.glare) out += glare_text(*report.stats.glare);
     return out;
 }

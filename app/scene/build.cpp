@@ -18,6 +18,7 @@
 #include "core/edges.h"
 #include "core/error.h"
 #include "core/image_io.h"
+#include "core/sky/image_sky.h"
 #include "core/texture.h"
 #include "core/topology.h"
 
@@ -265,6 +266,21 @@ Image<float> lens_mask(const Builder& b) {
     });
 }
 
+/// The sky's picture when it has one. Textures' limits hold for it, too.
+std::shared_ptr<const ImageSky> sky_picture(const Builder& b) {
+    const SceneTable& sky = subtable(b.document.root, "sky");
+    if (text(sky, "model") != "image") return nullptr;
+    return load_named(b, sky, "file", [&](const std::filesystem::path& path) {
+        ImageFileLimits limits;
+        limits.max_side_px = b.limits.texture_px;
+        limits.max_bytes = b.limits.texture_mib << 20;
+        ImageSky image = image_sky(read_file(path, largest_texture_file), text(sky, "file"),
+                                   number(sky, "file_scale"), limits);
+        image.left_edge_azimuth_deg = number(sky, "left_edge_azimuth_deg");
+        return std::make_shared<const ImageSky>(std::move(image));
+    });
+}
+
 }  // namespace
 
 Scene build_scene(const SceneDocument& document, const FileAccess& access) {
@@ -272,6 +288,7 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     b.scene.limits = b.limits;
     b.scene.render = render_settings_of(document);
     b.scene.sky = sky_of(document);
+    b.scene.sky.image = sky_picture(b);
     b.scene.outputs = outputs_of(document);
 
     add_materials(b);

@@ -80,6 +80,8 @@ const char* type_name(KeyType type) {
             return "3 numbers, or 1";
         case KeyType::date_time:
             return "date and time";
+        case KeyType::time_of_day:
+            return "text";
         case KeyType::name_list:
             return "list of names";
         case KeyType::name_map:

@@ -28,7 +28,7 @@ std::vector<SceneLight>::iterator sun_of(Scene& scene) {
 /// What a sky takes from its sun, and what its sun takes from the sky.
 void set_sky(Scene& scene, const SceneDocument& document, double frame) {
     Sky& sky = scene.sky;
-    if (sky.kind == SkyKind::gradient) return;
+    if (sky.kind != SkyKind::clear && sky.kind != SkyKind::overcast) return;
     const auto sun = sun_of(scene);
     if (sun == scene.lights.end()) return;
     const Vec3d to = -normalize(sun->light.direction);

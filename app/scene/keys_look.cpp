@@ -33,8 +33,10 @@ const KeyRows<Material>& material_rows() {
     return rows;
 }
 
-constexpr Word<SkyKind> sky_kind_words[] = {
-    {"gradient", SkyKind::gradient}, {"clear", SkyKind::clear}, {"overcast", SkyKind::overcast}};
+constexpr Word<SkyKind> sky_kind_words[] = {{"gradient", SkyKind::gradient},
+                                            {"clear", SkyKind::clear},
+                                            {"overcast", SkyKind::overcast},
+                                            {"image", SkyKind::image}};
 
 const KeyRows<Sky>& sky_rows() {
     static const KeyRows<Sky> rows{
@@ -44,7 +46,18 @@ const KeyRows<Sky>& sky_rows() {
             "stands, dusk included; a sun without irradiance_w_m2 then has the colour that this air "
             "leaves it. overcast: three times as bright above as at the horizon, as bright as a day of "
             "that sun; such a sun then sheds no light of its own. The disc of a clear sky is 0.53 degrees "
-            "wide."),
+            "wide. image: a picture of all directions, from `file`."),
+        {file_key(
+            "file",
+            "Image: PFM, linear radiance in W/(m2 sr), twice as wide as high: the top row looks straight "
+            "up, and columns run clockwise as seen from above.")},
+        {number_key("file_scale", "Image: what the file's numbers are multiplied by.")
+             .in({0, 1e6, true})
+             .or_else(1.0)},
+        {number_key("left_edge_azimuth_deg",
+                    "Image: where its left and right edges look; 180 has north in the middle.")
+             .in({-360, 360})
+             .or_else(180.0)},
         key_row(
             &Sky::turbidity,
             number_key("turbidity", "Clear: how hazy the air is; 2 is very clear, 6 hazy.").in({1.7, 10})),
@@ -56,17 +69,23 @@ const KeyRows<Sky>& sky_rows() {
                          name_key("sun",
                                   "Clear and overcast: id of the light whose direction the sky follows; "
                                   "the first sun, else the first directional light, when not given.")),
-        key_row(&Sky::occlusion,
-                boolean_key("occlusion",
-                            "Whether what stands before the sky keeps its light off. true: light comes from "
-                            "`samples` directions, with exact shadows; what is mirrored of it is dimmed as "
-                            "much of it as is hidden. Surfaces do not light one another. false: it reaches "
-                            "every surface, in closed rooms, too, and costs nothing.")),
+        key_row_if_given(
+            &Sky::occlusion,
+            boolean_key("occlusion",
+                        "Whether what stands before the sky keeps its light off. true, the default of all "
+                        "but gradients: light comes from `samples` directions, with exact shadows; what is "
+                        "mirrored of it is dimmed as much of it as is hidden. false: it reaches every "
+                        "surface, in closed rooms, too, as if nothing stood anywhere, and costs nothing.")),
+        key_row(&Sky::bounces,
+                integer_key("bounces",
+                            "Occlusion: how often surfaces send on the light of lights and sky that reaches "
+                            "them; what hides a direction of the sky then stands for it. 0: it is black.")
+                    .in({0, 4})),
         key_row(
             &Sky::samples,
             integer_key("samples",
                         "Occlusion: directions above the horizon that each pixel asks, shared out among its "
-                        "own samples; a sixteenth as many, at least 4, lie below.")
+                        "own samples; half as many lie below, with bounces = 0 a sixteenth, at least 4.")
                 .one_of({16, 64, 256, 1024})),
         key_row(&Sky::zenith,
                 vec3_or_number_key("zenith_w_m2_sr", "Gradient: radiance straight above.").in(brightness)),

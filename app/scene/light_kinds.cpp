@@ -104,7 +104,43 @@ KeyRows<Light> sun_rows() {
                                                    "no sun either way.")
                                     .in(brightness)
                                     .animate()),
+               {time_of_day_key("from",
+                                "Of the sun's path over the day of 'time', by the clock of its offset: "
+                                "sun_hours (see [[output]]) are counted along it. Pictures show the sun at "
+                                "'time'.")
+                    .or_else("00:00")},
+               {time_of_day_key("to", "End of the path, later than 'from'; 24:00 is the end of the day.")
+                    .or_else("24:00")},
+               {integer_key("steps",
+                            "Parts of the path, each with a sun at its middle. What stands in the sun or in "
+                            "shadow for less may be missed; every time the sun comes or goes costs an error "
+                            "of up to half a step.")
+                    .in({1, 1440})
+                    .or_else(SunPath{}.steps)},
            };
+}
+
+/// The way over the day of `time`, as its offset has that day.
+SunPath sun_path_of(const SceneTable& table, const DateTime& time) {
+    SunPath path;
+    path.year = time.year;
+    path.month = time.month;
+    path.day = time.day;
+    path.ahead_of_utc_h = time.offset_minutes / 60.0;
+    path.from_h = time_of_day(table, "from");
+    path.to_h = time_of_day(table, "to");
+    path.latitude_deg = number(table, "latitude_deg");
+    path.longitude_deg = number(table, "longitude_deg");
+    path.steps = static_cast<int>(integer(table, "steps"));
+    return path;
+}
+
+void check_sun(const SceneTable& light, const Sources& sources) {
+    if (time_of_day(light, "from") < time_of_day(light, "to")) return;
+    fail_at(place_of(light, light.find("to")->place.source >= 0 ? "to" : "from"), sources,
+            fmt::format("'to' ({}) must be later than 'from' ({}) on the same day; a path does not pass "
+                        "midnight, and 24:00 is the day's end",
+                        text(light, "to"), text(light, "from")));
 }
 
 void finish_sun(const SceneTable& table, Light& light) {
@@ -116,6 +152,7 @@ void finish_sun(const SceneTable& table, Light& light) {
     const double elevation = sun.apparent_elevation_deg;
     light.direction = -towards(sun.azimuth_deg, elevation);
     light.below_horizon = elevation <= 0;
+    light.path = sun_path_of(table, t);
     if (light.below_horizon) {
         light.color = {0, 0, 0};
     } else if (!table.has("irradiance_w_m2")) {
@@ -249,7 +286,7 @@ const std::vector<LightKindRow>& light_kinds() {
         {LightKind::directional, "directional", "Parallel light from a given direction.", directional_rows(),
          finish_directional, nullptr},
         {LightKind::sun, "sun", "Parallel light from where the sun stands at a place and time.", sun_rows(),
-         finish_sun, nullptr},
+         finish_sun, check_sun},
         {LightKind::point, "point", "Light from a point to all sides.", point_rows(), nullptr, check_point},
         {LightKind::spot, "spot", "Light from a point into a cone.", spot_rows(), finish_spot, check_spot},
         {LightKind::area, "area",

@@ -57,7 +57,7 @@ void set_place(SceneValue& value, const Place& place) {
 
 SceneValue parse_value(std::string_view value, const std::string& source_name, const Place& place) {
     SceneValue result;
-    if (is_bare_word(value)) {
+    if (is_bare_word(value) || parse_time_of_day(value)) {
         result.data = std::string(value);
     } else {
         if (value.find('\n') != std::string_view::npos) throw InputError(source_name, "a value is one line");

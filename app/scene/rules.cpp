@@ -143,10 +143,16 @@ void check_triangles(const SceneDocument& document) {
 // --- frames and outputs
 
 void check_outputs(const SceneTable& root, int frames, const Sources& sources) {
+    const std::vector<const SceneTable*> lights = subtables(root, "light");
+    const bool has_sun = std::any_of(lights.begin(), lights.end(), [](const SceneTable* light) {
+        return light_kind_of(*light).kind == LightKind::sun;
+    });
     std::vector<std::filesystem::path> files;
     for (const SceneTable* output : subtables(root, "output")) {
         const Place place = place_of(*output, "file");
         const std::filesystem::path path(text(*output, "file"));
+        if (text(*output, "aov") == "sun_hours" && !has_sun)
+            fail_at(place_of(*output, "aov"), sources, "'aov' = \"sun_hours\" needs a light of type \"sun\"");
         if (path.extension() != ".png" && path.extension() != ".pfm") {
             fail_at(place, sources, "'file' must end in .png or .pfm");
         }
@@ -216,10 +222,15 @@ void check_frames(const SceneDocument& document, const std::vector<std::string>&
     }
 }
 
-/// A sky that follows the sun needs one.
+/// A sky that follows the sun needs one, and an image a file.
 void check_sky(const SceneTable& root, const std::vector<std::string>& light_ids, const Sources& sources) {
     const SceneTable& sky = subtable(root, "sky");
-    if (text(sky, "model") == "gradient") return;
+    const std::string model = text(sky, "model");
+    if (sky.has("file") != (model == "image")) {
+        fail_at(place_of(sky, sky.has("file") ? "file" : "model"), sources,
+                sky.has("file") ? "'file' needs 'model' = \"image\"" : "'model' = \"image\" needs 'file'");
+    }
+    if (model == "gradient" || model == "image") return;
     const std::string id = sky.has("sun") ? text(sky, "sun") : "";
     if (!id.empty()) require_known(id, place_of(sky, "sun"), light_ids, "light", sources);
     bool found = false;
@@ -238,6 +249,11 @@ void check_sky(const SceneTable& root, const std::vector<std::string>& light_ids
                 fmt::format("'model' = \"{}\" needs a light of type \"sun\" or \"directional\" to follow",
                             text(sky, "model")));
     }
+}
+
+/// What is computed from where the sun stands arrives with occlusion; a gradient is light for speed.
+void complete_sky(SceneTable& sky) {
+    if (!sky.has("occlusion")) sky.set("occlusion", value_of(text(sky, "model") != "gradient"));
 }
 
 void check_size(const SceneDocument& document) {
@@ -268,6 +284,7 @@ void apply_rules(SceneDocument& document) {
     const std::vector<std::string> light_ids = unique_ids(root, "light", sources);
     merge_shadows(root, light_ids, sources);
     check_sky(root, light_ids, sources);
+    complete_sky(std::get<SceneTable>(root.find("sky")->value.data));
     check_frames(document, light_ids);
     check_stereo(document, mesh_ids, materials);
 }

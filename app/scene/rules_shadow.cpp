@@ -15,12 +15,12 @@ namespace {
 
 using Sources = std::vector<std::string>;
 
-constexpr const char* compressed_keys[] = {"scope",  "filter",     "max_magnification",
-                                           "layout", "top_levels", "cache"};
+constexpr const char* compressed_keys[] = {"scope",      "filter", "max_magnification", "code", "layout",
+                                           "top_levels", "cache"};
 constexpr const char* exact_keys[] = {"samples"};
 constexpr const char* map_keys[] = {"resolution", "filter_px", "normal_offset_texels"};
 /// What stacks have neither of compressed maps nor of maps.
-constexpr const char* tree_keys[] = {"scope", "filter", "layout", "top_levels"};
+constexpr const char* tree_keys[] = {"scope", "filter", "code", "layout", "top_levels"};
 constexpr const char* filter_keys[] = {"filter_px", "normal_offset_texels"};
 constexpr std::int64_t dense_default = 4096, most_dense_filter_px = 5;
 
@@ -150,12 +150,23 @@ void complete_compressed(SceneTable& settings, const SceneEntry* cache, const So
     if (own_cache && frame) {
         fail_at(settings.find("cache")->place, sources, "'cache' needs scope = \"full\"");
     }
+    // What merged trees store depends on all that is in them: parts of one are no part of another.
+    const bool whole = settings.has("code") && text(settings, "code") != "mh";
+    if (whole && frame) {
+        fail_at(settings.find("code")->place, sources,
+                fmt::format("'code' = \"{}\" needs scope = \"full\"", text(settings, "code")));
+    }
     // A cache for all lights is none for those that say scope = "frame".
     if (frame) settings.erase("cache");
-    set_default(settings, "scope", value_of(settings.has("cache") ? "full" : "frame"));
+    set_default(settings, "scope", value_of(settings.has("cache") || whole ? "full" : "frame"));
     set_default(settings, "filter", value_of("pcf"));
     complete_resolution(settings, sources);
-    set_default(settings, "layout", value_of("words24"));
+    set_default(settings, "code", value_of("mh"));
+    if (text(settings, "code") == "mh") {
+        set_default(settings, "layout", value_of("words24"));
+    } else if (settings.has("layout")) {
+        fail_at(settings.find("layout")->place, sources, "'layout' needs code = \"mh\"");
+    }
     set_default(settings, "top_levels", value_of(std::int64_t{d.top_levels}));
 }
 

@@ -24,7 +24,7 @@ struct RenderSettings {
     friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };
 
-enum class Aov { beauty, depth, normal, albedo, object, shadow };
+enum class Aov { beauty, depth, normal, albedo, object, shadow, sun_hours };
 
 struct Output {
     Aov aov = Aov::beauty;

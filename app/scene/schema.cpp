@@ -79,6 +79,9 @@ KeySpec vec3_or_number_key(std::string name, std::string doc) {
 KeySpec date_time_key(std::string name, std::string doc) {
     return key(std::move(name), KeyType::date_time, std::move(doc));
 }
+KeySpec time_of_day_key(std::string name, std::string doc) {
+    return key(std::move(name), KeyType::time_of_day, std::move(doc));
+}
 KeySpec name_list_key(std::string name, std::string doc) {
     return key(std::move(name), KeyType::name_list, std::move(doc));
 }
@@ -121,6 +124,7 @@ std::string allowed_text(const KeySpec& key) {
     if (!key.allowed.empty()) return fmt::format("one of {}{}", fmt::join(key.allowed, ", "), word);
     const Range& r = key.range;
     if (key.type == KeyType::date_time) return fmt::format("in the years {} to {}", r.lo, r.hi);
+    if (key.type == KeyType::time_of_day) return "\"HH:MM\" or \"HH:MM:SS\", 00:00 to 24:00";
     const bool below = r.hi != std::numeric_limits<double>::infinity();
     const bool above = r.lo != -std::numeric_limits<double>::infinity();
     if (above && below) {

@@ -25,11 +25,12 @@ enum class KeyType {
     vec3,            ///< three numbers
     vec3_or_number,  ///< three numbers, or one that stands for all three
     date_time,
-    table,       ///< [key]
-    table_list,  ///< [[key]]
-    table_map,   ///< [key.NAME]
-    name_list,   ///< texts, or one that stands alone
-    name_map,    ///< NAME = "name" pairs, whose keys are any text
+    time_of_day,  ///< text "HH:MM" or "HH:MM:SS"
+    table,        ///< [key]
+    table_list,   ///< [[key]]
+    table_map,    ///< [key.NAME]
+    name_list,    ///< texts, or one that stands alone
+    name_map,     ///< NAME = "name" pairs, whose keys are any text
 };
 
 /// Numbers from lo to hi; an open end excludes its bound. Applies to each component of a vector, and to the
@@ -105,6 +106,7 @@ KeySpec vec2_key(std::string name, std::string doc);
 KeySpec vec3_key(std::string name, std::string doc);
 KeySpec vec3_or_number_key(std::string name, std::string doc);
 KeySpec date_time_key(std::string name, std::string doc);
+KeySpec time_of_day_key(std::string name, std::string doc);
 KeySpec name_list_key(std::string name, std::string doc);
 KeySpec name_map_key(std::string name, std::string doc);
 KeySpec table_key(std::string name, const TableSpec& table);

@@ -27,6 +27,14 @@ inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope
                                                            {"full", ShadowScope::full}};
 inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},
                                                              {"hierarchical", ShadowFilter::hierarchical}};
+struct ShadowCodeWords {
+    Word<ShadowCode> all[shadow_code_count] = {};
+    constexpr ShadowCodeWords() {
+        for (int i = 0; i < shadow_code_count; ++i)
+            all[i] = {shadow_code_names[i].name, shadow_code_names[i].code};
+    }
+};
+inline constexpr ShadowCodeWords shadow_code_words;
 struct TreeLayoutWords {
     Word<TreeLayout> all[tree_layout_count] = {};
     constexpr TreeLayoutWords() {
@@ -72,9 +80,10 @@ struct ShadowSettings {
     ShadowScope scope = ShadowScope::frame;
     ShadowFilter filter = ShadowFilter::pcf;
     double max_magnification = 1.0;  ///< auto: pixels that a texel spans at most, the shorter way
-    TreeLayout layout = TreeLayout::words24;
-    int top_levels = 6;  ///< first levels that are kept as a table, in [0, 10]
-    std::string cache;   ///< folder for finished maps of scope full, and stacks; empty: none
+    ShadowCode code = ShadowCode::mh;
+    TreeLayout layout = TreeLayout::words24;  ///< mh only
+    int top_levels = 6;                       ///< first levels that are kept as a table, in [0, 10]
+    std::string cache;                        ///< folder for finished maps of scope full, and stacks; empty: none
     friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
 };
 

@@ -83,6 +83,11 @@ SceneValue convert_node(const toml::node& node, int source, const std::string& f
         const DateTime t = convert(v->get());
         return {leaps.contains({place.line, place.column}) ? second_later(t) : t, place};
     }
+    // Whole seconds: what keys of times of day are.
+    if (const auto* v = node.as_time(); v != nullptr && v->get().nanosecond == 0) {
+        const toml::time t = v->get();
+        return {fmt::format("{:02}:{:02}:{:02}", int{t.hour}, int{t.minute}, int{t.second}), place};
+    }
     throw InputError(filename, place.line, place.column, "a date or time alone means nothing here");
 }
 

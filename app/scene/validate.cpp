@@ -26,6 +26,7 @@ std::string type_text(const KeySpec& key) {
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
+        case KeyType::time_of_day:
             return "a string";
         case KeyType::size2:
             return "two integers [width, height]";
@@ -153,12 +154,13 @@ SceneValue checked_text(const KeySpec& key, const SceneValue& value, const Sourc
         fail_at(value.place, sources,
                 fmt::format("'{}' must name a {}", key.name, key.folder ? "folder" : "file"));
     }
-    if (key.type == KeyType::choice &&
-        std::find(key.choices.begin(), key.choices.end(), *s) == key.choices.end()) {
+    const bool known = std::find(key.choices.begin(), key.choices.end(), *s) != key.choices.end();
+    const bool fits = key.type == KeyType::time_of_day ? parse_time_of_day(*s).has_value()
+                                                       : key.type != KeyType::choice || known;
+    if (!fits)
         fail_at(value.place, sources,
                 fmt::format("'{}' must be {}, not \"{}\"{}", key.name, allowed_text(key),
                             s->size() <= 64 ? *s : s->substr(0, 61) + "...", hint(*s, key.choices)));
-    }
     return value;
 }
 
@@ -272,6 +274,7 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
+        case KeyType::time_of_day:
             return checked_text(key, value, sources);
         case KeyType::size2:
         case KeyType::vec2:

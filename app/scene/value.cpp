@@ -124,8 +124,28 @@ Size2 size2(const SceneTable& table, std::string_view key) {
     return {static_cast<int>(as_number(list[0])), static_cast<int>(as_number(list[1]))};
 }
 
+std::optional<double> parse_time_of_day(std::string_view text) {
+    if (text.size() != 5 && text.size() != 8) return std::nullopt;
+    int parts[3] = {0, 0, 0};
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool colon = i % 3 == 2, digit = text[i] >= '0' && text[i] <= '9';
+        if (colon ? text[i] != ':' : !digit) return std::nullopt;
+        if (!colon) parts[i / 3] = 10 * parts[i / 3] + (text[i] - '0');
+    }
+    const auto [hour, minute, second] = parts;
+    const bool within = hour < 24 || (hour == 24 && minute == 0 && second == 0);
+    if (!within || minute > 59 || second > 59) return std::nullopt;
+    return hour + minute / 60.0 + second / 3600.0;
+}
+
 DateTime date_time(const SceneTable& table, std::string_view key) {
     return get_as<DateTime>(table, key);
+}
+
+double time_of_day(const SceneTable& table, std::string_view key) {
+    const std::optional<double> hours = parse_time_of_day(text(table, key));
+    CHECK(hours, fmt::format("key '{}' is no time of day", key));
+    return *hours;
 }
 
 const SceneTable& subtable(const SceneTable& table, std::string_view key) {

@@ -3,6 +3,7 @@
 // TOML's syntax (toml_parse.cpp does) nor of what keys mean (keys*.cpp do).
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -26,6 +27,9 @@ struct DateTime {
     int offset_minutes = 0;
     friend bool operator==(const DateTime&, const DateTime&) = default;
 };
+
+/// Hours since midnight of "HH:MM" or "HH:MM:SS", from 00:00 to 24:00; none of anything else.
+std::optional<double> parse_time_of_day(std::string_view text);
 
 /// Width and height in pixels.
 struct Size2 {
@@ -80,6 +84,7 @@ Vec2d vec2(const SceneTable& table, std::string_view key);
 Vec3d vec3(const SceneTable& table, std::string_view key);
 Size2 size2(const SceneTable& table, std::string_view key);
 DateTime date_time(const SceneTable& table, std::string_view key);
+double time_of_day(const SceneTable& table, std::string_view key);  ///< hours
 const SceneTable& subtable(const SceneTable& table, std::string_view key);
 /// The names of a list; empty when the key is absent.
 std::vector<std::string> text_list(const SceneTable& table, std::string_view key);

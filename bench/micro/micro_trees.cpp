@@ -16,8 +16,8 @@
 #include "filters/shadow_lookup.h"
 #include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
-#include "hierarchy/query.h"
-#include "hierarchy/shadow_tree.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/query.h"
 #include "raster/view.h"
 
 namespace obscura {

@@ -1,10 +1,10 @@
 #pragma once
-// Bare lookups in a dense map, for comparison with those in trees (hierarchy/query.h). POD: kernels include
-// this.
+// Bare lookups in a dense map, for comparison with those in trees (hierarchy/codes/query.h). POD: kernels
+// include this.
 
 #include <cstdint>
 
-#include "hierarchy/query.h"
+#include "hierarchy/codes/query.h"
 
 namespace obscura {
 

@@ -8,7 +8,7 @@
 #include "bench/shadows/visible_points.h"
 #include "core/scene.h"
 #include "filters/shadow_lookup.h"
-#include "hierarchy/query.h"
+#include "hierarchy/codes/query.h"
 
 namespace obscura {
 

@@ -14,9 +14,9 @@
 #include "filters/shadow_lookup.h"
 #include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
-#include "hierarchy/decode.h"
-#include "hierarchy/query.h"
-#include "hierarchy/shadow_tree.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
+#include "hierarchy/codes/query.h"
 #include "raster/shadow_map.h"
 
 namespace obscura {

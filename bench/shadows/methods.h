@@ -9,7 +9,7 @@
 #include "bench/shadows/scenes.h"
 #include "bench/shadows/wrong_pixels.h"
 #include "filters/pcf.h"
-#include "hierarchy/query.h"
+#include "hierarchy/codes/query.h"
 
 namespace obscura {
 

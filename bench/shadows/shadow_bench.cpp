@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bench/harness/report.h"
+#include "bench/shadows/code_bench.h"
 #include "bench/shadows/exact_bench.h"
 #include "bench/shadows/report.h"
 #include "bench/shadows/stack_bench.h"
@@ -85,6 +86,10 @@ int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& pe
     if (options.part == "stack") {
         make_output_folder(options);
         return bench_stack(options);
+    }
+    if (options.part == "trees") {
+        make_output_folder(options);
+        return bench_codes(options);
     }
     const auto wants = [&](const char* part) { return options.part.empty() || options.part == part; };
     const ShadowBenchPlan plan = shadow_bench_plan(options.quick);

@@ -7,7 +7,7 @@
 #include "bench/shadows/shadow_bench.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "hierarchy/shadow_tree.h"
+#include "hierarchy/codes/codes.h"
 #include "raster/shadow_map.h"
 
 namespace obscura {

@@ -153,7 +153,8 @@ SkyDirection light_of(const Partition& p, const Part& part) {
     }
     const Vec3d direction = normalize(balanced(sum, p.balance) + middle * p.faint);
     const auto facing = [&](Vec3d channel) { return std::max(0.0, dot(channel, direction)); };
-    return {direction, to_float(Vec3d{facing(sum.red), facing(sum.green), facing(sum.blue)})};
+    return {direction, to_float(Vec3d{facing(sum.red), facing(sum.green), facing(sum.blue)}),
+            cell_solid_angle * (part.x1 - part.x0) * (part.y1 - part.y0)};
 }
 
 /// How a quadrant's piece of the Hilbert curve lies: axes exchanged, both axes reversed.

@@ -35,8 +35,9 @@ Vec3d unoccluded_irradiance(const SkyGrid& grid, Vec3d normal);
 
 /// One distant light. A surface it reaches gets irradiance_w_m2 * max(0, dot(normal, direction)).
 struct SkyDirection {
-    Vec3d direction{0, 1, 0};  ///< unit, towards the sky, y > 0
-    Vec3f irradiance_w_m2;     ///< on a surface that faces it, per channel
+    Vec3d direction{0, 1, 0};   ///< unit, towards the sky, y > 0
+    Vec3f irradiance_w_m2;      ///< on a surface that faces it, per channel
+    double solid_angle_sr = 0;  ///< of the part of the sky that it stands for
 };
 
 /// What makes a part of the sky worth a direction.

@@ -1,6 +1,6 @@
 #pragma once
 // A stack in a file: written whole or not at all, read without copying, believed only after checking
-// (as hierarchy/tree_file.h).
+// (as hierarchy/codes/tree_file.h).
 
 #include <cstdint>
 #include <filesystem>
@@ -9,8 +9,9 @@
 #include <span>
 #include <string>
 
+#include "core/file_output.h"
 #include "hierarchy/stack/stack.h"
-#include "hierarchy/tree_file.h"
+#include "hierarchy/tree_file_key.h"
 
 namespace obscura {
 

@@ -153,7 +153,7 @@ OBSCURA_INLINE F32 compared_depth(const Receivers16& p, const Range16& map, cons
 // --- descents ------------------------------------------------------------------------------------------
 
 /// Unit indices have 32 bits, but gathers take signed ones: lanes carry index - 2^31 (see
-/// hierarchy/tree_lanes.h).
+/// hierarchy/descents.h).
 constexpr std::uint32_t index_bias = 0x80000000u;
 
 OBSCURA_INLINE const std::uint8_t* biased_words(const StackCode& code) {

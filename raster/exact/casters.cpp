@@ -161,6 +161,7 @@ class Builder {
             boxes.y_low[k] = b.y_low;
             boxes.y_high[k] = b.y_high;
             boxes.z_low[k] = t.zmin - depth_error;
+            boxes.z_high[k] = t.zmax + depth_error;
         }
     }
 
@@ -168,6 +169,7 @@ class Builder {
         boxes.x_low[k] = boxes.y_low[k] = most_step;
         boxes.x_high[k] = boxes.y_high[k] = -most_step;
         boxes.z_low[k] = std::numeric_limits<float>::infinity();
+        boxes.z_high[k] = -std::numeric_limits<float>::infinity();
     }
 
     CasterTriangle caster(const TriangleRecord& t) const {
@@ -198,6 +200,7 @@ class Builder {
             to.y_low[k] = *std::min_element(from.y_low, from.y_low + group);
             to.y_high[k] = *std::max_element(from.y_high, from.y_high + group);
             to.z_low[k] = *std::min_element(from.z_low, from.z_low + group);
+            to.z_high[k] = *std::max_element(from.z_high, from.z_high + group);
         }
     }
 
@@ -268,6 +271,8 @@ ExactLight exact_light(const Light& light, std::span<const Casters> casters, con
         v.perspective = c.view.perspective;
         v.near_w = c.view.near_w;
         v.step_m = texel_size_m(c.view) / subtexel_one;
+        const auto& depth = c.view.to_map.m[2];
+        if (!v.perspective) v.depth_m = 1 / length(Vec3d{depth[0], depth[1], depth[2]});
     }
     e.directional = is_parallel(light.kind);
     set(e.to_light, to_float(-normalize(light.direction)));

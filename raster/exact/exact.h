@@ -53,11 +53,11 @@ struct CasterTriangle {
 };
 static_assert(sizeof(CasterTriangle) == 64);
 
-/// What bounds sixteen triangles, or sixteen groups of sixteen: on the light's grid, and the nearest depth.
+/// What bounds sixteen triangles, or sixteen groups of sixteen: on the light's grid, and in depth.
 /// Places that hold nothing have x_low > x_high.
 struct alignas(64) CasterBoxes {
     std::int32_t x_low[16], x_high[16], y_low[16], y_high[16];
-    float z_low[16];
+    float z_low[16], z_high[16];
 };
 
 /// Enough for 2^32 triangles.
@@ -73,8 +73,9 @@ struct ExactView {
     std::int32_t levels = 0;  ///< 0: nothing casts a shadow here
     std::int32_t steps = 0;   ///< of the grid, a side; what lies beyond is lit
     bool perspective = false;
-    double near_w = 0;  ///< perspective: samples nearer than this are lit
-    double step_m = 0;  ///< metres that a step spans: everywhere, or at distance 1 (perspective)
+    double near_w = 0;   ///< perspective: samples nearer than this are lit
+    double step_m = 0;   ///< metres that a step spans: everywhere, or at distance 1 (perspective)
+    double depth_m = 0;  ///< parallel light: metres that depths from 0 to 1 span
 };
 
 /// A light as its samples see it.

@@ -1,7 +1,7 @@
 #pragma once
 // Samples in an order of their own, as bunches of sixteen neighbours on the light's grid. Kernel files only.
 
-#include "raster/exact/exact_nearby.h"
+#include "raster/exact/exact_triangle.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {

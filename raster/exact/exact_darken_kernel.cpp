@@ -1,6 +1,7 @@
 // Shadows of samples in an order of their own: bunches of sixteen neighbours on the light's grid.
 
 #include "raster/exact/exact_bunch.h"
+#include "raster/exact/exact_nearby.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {

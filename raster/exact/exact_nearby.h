@@ -25,6 +25,7 @@ struct Nearby {
         to.y_low[i] = from.y_low[k];
         to.y_high[i] = from.y_high[k];
         to.z_low[i] = from.z_low[k];
+        to.z_high[i] = from.z_high[k];
         const int g = count / 16;
         around.x_low[g] = i == 0 ? to.x_low[i] : least(around.x_low[g], to.x_low[i]);
         around.x_high[g] = i == 0 ? to.x_high[i] : most(around.x_high[g], to.x_high[i]);
@@ -87,8 +88,8 @@ struct Nearby {
 };
 
 /// Collects what is near the bunches; false when there is no room for all of it.
-bool collect(const ExactLight& light, const ExactView& view, const Bunch* bunch, int n, Nearby& nearby,
-             ExactCounts& counts) {
+OBSCURA_INLINE bool collect(const ExactLight& light, const ExactView& view, const Bunch* bunch, int n,
+                            Nearby& nearby, ExactCounts& counts) {
     Extent all = bunch[0].extent;
     for (int b = 1; b < n; ++b)
         all = united(all, bunch[b].extent);

@@ -26,6 +26,13 @@ struct ExactHits {
     return cosine > least ? cosine : least;
 }
 
+/// No point has a triangle nearer before itself than the triangle's farthest corner from the light is,
+/// however its plane runs on: metres between depth z of the point and z_high of the triangle, or of what
+/// bounds it.
+[[gnu::always_inline]] inline double exact_least_distance(const ExactView& view, float z, float z_high) {
+    return (static_cast<double>(z) - static_cast<double>(z_high)) * view.depth_m;
+}
+
 /// Whether (distance, triangle) is nearer; of triangles as near as each other, the first in the mesh.
 [[gnu::always_inline]] inline bool exact_is_nearer(double distance, std::uint32_t triangle,
                                                    double than_distance, std::uint32_t than_triangle) {

@@ -1,5 +1,6 @@
 // The nearest triangle before a sample, one sample and one triangle at a time: the definition.
 
+#include <algorithm>
 #include <limits>
 
 #include "raster/depth_tile.h"
@@ -39,7 +40,9 @@ void exact_nearest(const ExactPoints& points, const ExactLight& light, const Exa
             ++counts.triangles;
             if (!darkens(t, view.boxes[0][c / 16].z_low[c % 16], light, points, place)) continue;
             const double behind = -((t.n[0] * place.p.x + t.n[1] * place.p.y) + (t.n[2] * place.p.z + t.d));
-            const double distance = behind / exact_cosine(t, light);
+            const double distance =
+                std::max(behind / exact_cosine(t, light),
+                         exact_least_distance(view, place.z, view.boxes[0][c / 16].z_high[c % 16]));
             if (!exact_is_nearer(distance, t.triangle, nearest, triangle)) continue;
             nearest = distance;
             triangle = t.triangle;

@@ -125,6 +125,42 @@ TEST(CheckCommand, StacksAreToldAdvisedAndRefusedAtTheirKey) {
         << inside;
 }
 
+TEST(CheckCommand, TellsWhatHoursOfSunTake) {
+    const TemporaryFolder folder;
+    folder.write("s.toml", R"(format = 1
+camera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}
+[[mesh]]
+id = "a"
+shape = "box"
+[[light]]
+id = "sun"
+type = "sun"
+latitude_deg = 48.2
+longitude_deg = 16.37
+time = 2026-03-20T12:00:00+01:00
+from = 06:30:00
+to = "12:30"
+steps = 36
+)");
+    const auto report_of = [&](std::vector<std::string> overrides) {
+        return check_report({folder.path / "s.toml", std::move(overrides), {}});
+    };
+    const std::string report = report_of({});
+    for (const char* line :
+         {"sun hours light 'sun', 2026-03-20, 06:30 to 12:30 in 36 steps of 10 min: up 06:30 to "
+          "12:30, 6.00 h\n          exact: 36 suns, each with all that casts shadows in order, 36 "
+          "in a pass, 1 pass; up to 2073600 samples to look up for each; ",
+          " at most\n"}) {
+        EXPECT_NE(report.find(line), std::string::npos) << line << "\nis not in\n" << report;
+    }
+    const std::string night = report_of({"light.sun.from=00:00", "light.sun.to=04:00"});
+    EXPECT_NE(
+        night.find(
+            "note      light 'sun' does not rise at latitude 48.2 on 2026-03-20 between 00:00 and 04:00"),
+        std::string::npos)
+        << night;
+}
+
 /// The message and code class of a lens that is refused.
 std::string refused(const TemporaryFolder& folder, const std::string& optics,
                     std::vector<std::string> overrides = {}) {

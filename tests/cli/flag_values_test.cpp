@@ -75,7 +75,8 @@ TEST(FlagValues, FramesAreSortedUniqueAndTheScenes) {
 TEST(FlagValues, AovsByNameOnce) {
     EXPECT_EQ(aov_values("--aov", "normal,depth,normal"), (std::vector<Aov>{Aov::normal, Aov::depth}));
     EXPECT_EQ(error_of([] { aov_values("--aov", "dept"); }),
-              "--aov: 'dept' is not one of depth, normal, albedo, object, shadow; did you mean 'depth'?");
+              "--aov: 'dept' is not one of depth, normal, albedo, object, shadow, sun_hours; did you mean "
+              "'depth'?");
     EXPECT_THROW(aov_values("--aov", "beauty"), UsageError);
 }
 

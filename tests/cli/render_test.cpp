@@ -350,6 +350,7 @@ TEST(Render, MistakesAreToldBeforeTheWork) {
              {{"--crop", "-1,0,5,5"}, 2, "--crop: '-1,0,5,5' is not a rectangle"},
              {{"--pixel", "64,0"}, 2, "--pixel: '64,0' is not inside the 64 x 48 picture"},
              {{"--aov", "dept"}, 2, "--aov: 'dept' is not one of"},
+             {{"--aov", "sun_hours"}, 2, "--aov sun_hours: the scene has no light of type \"sun\""},
              {{"--aov-format", "tiff"}, 2, "--aov-format: 'tiff' is not png or pfm"},
              {{"-t", "-1"}, 2, "--threads: '-1' is not a whole number"},
              {{"-D", "camera.vfov=3"}, 3, "-D camera.vfov=3: "},

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "hierarchy/tree_file.h"
+#include "hierarchy/codes/tree_file.h"
 #include "tests/cli/program.h"
 #include "tests/report/json_reader.h"
 
@@ -57,7 +57,7 @@ TEST(ShadowCache, IsMadeAgainWithANoticeWhenAnythingItDependsOnChanged) {
     for (const char* change :
          {"mesh.cube.size_m=2.01", "light.lamp.elevation_deg=31", "light.lamp.shadow.resolution=512",
           "light.lamp.shadow.layout=bytes16", "light.lamp.shadow.receivers=any",
-          "light.lamp.shadow.top_levels=3", "mesh.cube.casts_shadow=false"}) {
+          "light.lamp.shadow.top_levels=3", "light.lamp.shadow.code=mmh", "mesh.cube.casts_shadow=false"}) {
         const std::string before = scene.map();
         std::string key = change;
         // [shadow.lamp] stands in a table of its own.

@@ -10,11 +10,13 @@
 #include "app/frame/scene_light.h"
 #include "filters/tree_pcf.h"
 #include "hierarchy/build.h"
+#include "hierarchy/codes/codes.h"
 #include "raster/depth_tile.h"
 #include "raster/view.h"
 #include "scenes/generators.h"
 #include "tests/filters/tree_pcf_samples.h"
 #include "tests/frame/scenes.h"
+#include "tests/hierarchy/code_cases.h"
 #include "tests/hierarchy/tree_oracle.h"
 
 namespace obscura {
@@ -46,13 +48,14 @@ CameraRays camera_above(double texels) {
     return rays;
 }
 
-class Levels : public testing::TestWithParam<int> {};
+class Levels : public testing::TestWithParam<std::tuple<int, CodeCase>> {};
 
 TEST_P(Levels, AreTheMapsOfDescentsThatStopThere) {
     constexpr int size = 64, levels = 6;
-    const int side = GetParam(), squares = std::max(side - 1, 1);
-    const MultiresTree tree = build_bottom_up(chosen::patchy_intervals(size, 5).view());
-    const ShadowTree code = encode_tree(tree, {});
+    const int side = std::get<0>(GetParam()), squares = std::max(side - 1, 1);
+    const MultiresTree built = build_bottom_up(chosen::patchy_intervals(size, 5).view());
+    const ShadowTree code = encode_tree(built, {}, params_of(std::get<1>(GetParam())));
+    const MultiresTree tree = tree_behind(code, built);
     const std::vector<SurfaceBlock> blocks = chosen::blocks_at(chosen::places_everywhere(size, 3), 0, 4);
     Visibility finer;
     int differing = 0;
@@ -88,7 +91,8 @@ TEST_P(Levels, AreTheMapsOfDescentsThatStopThere) {
     }
     EXPECT_GT(differing, 200) << "the two samples of the blend must be two";
 }
-INSTANTIATE_TEST_SUITE_P(Kernels, Levels, testing::Values(1, 3, 5));
+INSTANTIATE_TEST_SUITE_P(Kernels, Levels,
+                         testing::Combine(testing::Values(1, 3, 5), testing::ValuesIn(code_cases)));
 
 TEST(TreePcfLevels, ReachTheRootAndGoNoFurther) {
     const MultiresTree tree = build_bottom_up(chosen::patchy_intervals(16, 5).view());
@@ -113,7 +117,9 @@ TEST(TreePcfLevels, ReachTheRootAndGoNoFurther) {
 
 TEST(TreePcfLevels, EveryOddSideAndMixedFootprintsAreTheSameOnEveryIsa) {
     const MultiresTree tree = build_bottom_up(chosen::patchy_intervals(64, 8).view());
-    const ShadowTree code = encode_tree(tree, {}, {TreeLayout::bytes16, 2});
+    const ShadowTree trees[] = {encode_tree(tree, {}, {TreeLayout::bytes16, 2}),
+                                encode_tree(tree, {}, params_of(code_cases[3], 2))};
+    ASSERT_EQ(trees[1].code.code, ShadowCode::mmh);
     std::vector<SurfaceBlock> blocks = chosen::blocks_at(chosen::places_everywhere(64, 3), 0.03f, 4);
     std::mt19937 rng(3);
     for (SurfaceBlock& b : blocks) {
@@ -123,7 +129,7 @@ TEST(TreePcfLevels, EveryOddSideAndMixedFootprintsAreTheSameOnEveryIsa) {
     for (const int side : {1, 3, 5, 7, 15}) {
         for (const bool parallel : {true, false}) {
             PcfLight light = chosen::light_above(64, side, parallel);
-            light.view[0].tree = &code.code;
+            light.view[0].tree = &trees[parallel ? 1 : 0].code;
             CameraRays rays = camera_above(0);
             // Distances vary from lane to lane, and with them the levels.
             rays.perspective = true;

@@ -7,10 +7,12 @@
 #include <bit>
 
 #include "app/frame/scene_light.h"
-#include "hierarchy/decode.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
 #include "raster/view.h"
 #include "tests/filters/tree_pcf_samples.h"
 #include "tests/frame/scenes.h"
+#include "tests/hierarchy/code_cases.h"
 
 namespace obscura {
 namespace {
@@ -59,12 +61,16 @@ struct ChosenMap {
     StoredDepths map;
 };
 
+StoredDepths dense_map(const MultiresTree& tree, int size) {
+    return chosen::dense(size, [&](int x, int y) {
+        return value_at(tree, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+    });
+}
+
 ChosenMap chosen_map(int size, std::uint32_t seed) {
     ChosenMap m;
     m.tree = build_bottom_up(chosen::patchy_intervals(size, seed).view());
-    m.map = chosen::dense(size, [&](int x, int y) {
-        return value_at(m.tree, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-    });
+    m.map = dense_map(m.tree, size);
     return m;
 }
 
@@ -79,17 +85,18 @@ TEST_P(TreePcf, EqualsTheDenseMapAtEveryAlignmentAndBorder) {
                 const std::vector<SurfaceBlock> blocks =
                     chosen::blocks_at(chosen::places_everywhere(size, 3), tilt, 4);
                 PcfLight dense = chosen::light_above(size, side, parallel), light = dense;
-                dense.view[0].stored = m.map.depth.data();
-                const Visibility expected = by_map(blocks, dense);
-                if (side > 1 && size > 4) {
-                    EXPECT_GT(between_light_and_dark(expected), 20);
-                }
-                for (const TreeLayoutRow& row : tree_layouts) {
-                    ShadowTree tree = encode_tree(m.tree, {}, {row.layout});
+                for (const CodeCase& row : code_cases) {
+                    ShadowTree tree = encode_tree(m.tree, {}, params_of(row));
+                    const StoredDepths map = dense_map(tree_behind(tree, m.tree), size);
+                    dense.view[0].stored = map.depth.data();
+                    const Visibility expected = by_map(blocks, dense);
+                    if (side > 1 && size > 4) {
+                        EXPECT_GT(between_light_and_dark(expected), 20);
+                    }
                     for (const int top : {0, 2}) {
                         set_top_grid(tree, top);
                         light.view[0].tree = &tree.code;
-                        expect_all(blocks, light, expected, std::string("layout ") + row.name);
+                        expect_all(blocks, light, expected, row.name);
                     }
                 }
             }
@@ -170,12 +177,10 @@ TEST(TreePcfScenes, LightsOfEveryKindSeeWhatTheirDenseMapsShow) {
         std::vector<ShadowTree> trees;
         for (std::size_t i = 0; i < map.views.size(); ++i) {
             const MultiresTree tree = build_bottom_up(interval_map(scene.mesh, map.views[i], {}, {}).view());
-            map.stored.push_back(chosen::dense(map.views[i].width, [&](int x, int y) {
-                return value_at(tree, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
-            }));
-            // Views may have different layouts.
+            // Views may have different codes and layouts.
             trees.push_back(
-                encode_tree(tree, map.views[i], {i % 2 == 0 ? TreeLayout::words24 : TreeLayout::bytes16}));
+                encode_tree(tree, map.views[i], params_of(code_cases[i % std::size(code_cases)])));
+            map.stored.push_back(dense_map(tree_behind(trees.back(), tree), map.views[i].width));
         }
         for (const int side : {1, 3, 5}) {
             light.shadow.filter_px = side;

@@ -124,6 +124,34 @@ TEST(FrameDeterminism, CropIsPartOfTheWhole) {
     }
 }
 
+TEST(FrameDeterminism, HoursOfSunAreThoseOfTheWhole) {
+    Scene scene = everything(4);
+    SceneLight& sun = scene.lights.emplace_back();
+    sun.light.kind = LightKind::sun;
+    sun.light.below_horizon = true;
+    sun.light.path = SunPath{2026, 6, 21, 1, 0, 24, 48.2, 15, 24};
+    FrameOptions options;
+    options.sun_hours = true;
+    const Frame whole = render_frame(scene, options, {Isa::ref, 1});
+    options.crop = {37, 21, 101, 77};
+    for (const bool lens : {false, true}) {
+        // Glare takes the picture with a margin, whose tiles lie elsewhere.
+        scene.optics.enabled = lens;
+        for (const Isa isa : supported_isas()) {
+            for (const int threads : {1, 3}) {
+                const Frame part = render_frame(scene, options, {isa, threads});
+                ASSERT_EQ(part.sun_hours.width, 101);
+                ASSERT_EQ(part.sun_hours.height, 77);
+                for (int y = 0; y < part.height; ++y)
+                    ASSERT_EQ(0, std::memcmp(part.sun_hours.row(y), &whole.sun_hours(37, y + 21),
+                                             sizeof(float) * 101))
+                        << isa_name(isa) << ", " << threads << " threads, row " << y
+                        << (lens ? ", lens" : "");
+            }
+        }
+    }
+}
+
 TEST(FrameDeterminism, KeptMapsGiveTheSamePictureAsNewOnes) {
     Scene scene = everything(1);
     FrameCache cache;
@@ -162,7 +190,7 @@ TEST(FrameDeterminism, DoubledLightDoublesThePictureExactly) {
 }
 
 TEST(FrameDeterminism, CancelStopsAndProgressEndsAtOne) {
-    const Scene scene = everything(1);
+    Scene scene = everything(1);
     FrameOptions options;
     double last = 0;
     int calls = 0;
@@ -174,6 +202,11 @@ TEST(FrameDeterminism, CancelStopsAndProgressEndsAtOne) {
     EXPECT_TRUE(render_frame(scene, options).complete);
     EXPECT_EQ(last, 1.0);
     EXPECT_GT(calls, 3);
+    scene.lights[0].light.path = SunPath{2026, 6, 21, 1, 0, 24, 48.2, 15, 144};
+    options.sun_hours = true;
+    last = 0;
+    EXPECT_TRUE(render_frame(scene, options).complete);
+    EXPECT_EQ(last, 1.0);
     std::atomic<bool> cancel = true;
     options.cancel = &cancel;
     EXPECT_FALSE(render_frame(scene, options).complete);

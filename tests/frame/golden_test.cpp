@@ -63,6 +63,8 @@ Rendered render(const fs::path& file) {
     const Scene scene = build_scene(document, FileAccess{document.folder, {}});
     FrameOptions options;
     options.depth = options.normal = options.albedo = options.object = options.shadow = true;
+    options.sun_hours = std::any_of(scene.outputs.begin(), scene.outputs.end(),
+                                    [](const Output& o) { return o.aov == Aov::sun_hours; });
     const Frame frame = render_frame(scene, options);
     Rendered r;
     r.picture = tonemap(frame.radiance.view(), {scene.render.exposure_ev, scene.render.tone}, Exec{});
@@ -73,6 +75,7 @@ Rendered render(const fs::path& file) {
                 {"albedo", hash_of<Vec3f>(frame.albedo.view())},
                 {"object", hash_of<std::uint32_t>(frame.object.view())},
                 {"shadow", hash_of<float>(frame.shadow.view())}};
+    if (options.sun_hours) r.hashes["sun_hours"] = hash_of<float>(frame.sun_hours.view());
     return r;
 }
 

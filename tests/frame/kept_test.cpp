@@ -69,7 +69,7 @@ TEST(Kept, ShadowsNoticeEveryKeyOfTheirLight) {
             start + "[[light]]\nid = \"l\"\ntype = \"" + kind.name + "\"\n" + required_keys(kind.keys);
         expect_noticed(scene, "light.l.", kind.keys,
                        {"irradiance_w_m2", "extraterrestrial_w_m2", "intensity_w_sr", "inner_cone_deg",
-                        "radiance_w_m2_sr"});
+                        "radiance_w_m2_sr", "from", "to", "steps"});
         // A tree, whatever the key: one of maps alone would turn exact shadows into one.
         std::vector<KeySpec> of_trees = shadow_table().keys;
         std::erase_if(of_trees, [](const KeySpec& key) { return key.name == "samples"; });

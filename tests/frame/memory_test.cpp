@@ -86,6 +86,7 @@ std::string street_of(int lamps) {
 struct Case {
     const char* scene;  ///< below scenes/; "street N": a street of N lamps
     std::vector<std::string> overrides;
+    std::vector<std::string> flags = {};
 };
 
 TEST(FrameMemory, EstimatesAreNearWhatIsReallyTaken) {
@@ -111,6 +112,7 @@ TEST(FrameMemory, EstimatesAreNearWhatIsReallyTaken) {
         {"courtyard.toml", {small}},
         {"interior.toml", {small}},
         {"still_life.toml", {small}},
+        {"sun_hours.toml", {small, "light.sun.steps=30"}, {"--aov", "sun_hours"}},
         {"sun_star.toml", {small, short_streaks}},
         {"stereo_characters.toml", {small}},
         {"stereo_spheres.toml", {small}},
@@ -130,6 +132,7 @@ TEST(FrameMemory, EstimatesAreNearWhatIsReallyTaken) {
         const std::filesystem::path stats = folder / "stats.json";
         std::vector<std::string> arguments{"render",         file,           "-q", "--overwrite", "-o",
                                            folder / "p.png", "--stats-json", stats};
+        arguments.insert(arguments.end(), c.flags.begin(), c.flags.end());
         for (const std::string& o : c.overrides)
             arguments.insert(arguments.end(), {"-D", o});
         const double real = peak_of(arguments) - program;

@@ -24,13 +24,15 @@ std::uint64_t hash_of(const Frame& frame) {
     for (int y = 0; y < radiance.height; ++y)
         hasher.bytes(radiance.row(y), static_cast<std::size_t>(radiance.width) * sizeof(Vec3f));
     hasher.values(frame.depth_m.pixels).values(frame.normal.pixels).values(frame.albedo.pixels);
-    hasher.values(frame.object.pixels).values(frame.shadow.pixels);
+    hasher.values(frame.object.pixels).values(frame.shadow.pixels).values(frame.sun_hours.pixels);
     return hasher.state;
 }
 
 std::uint64_t render_hash(const Scene& scene, const Exec& exec) {
     FrameOptions options;
     options.depth = options.normal = options.albedo = options.object = options.shadow = true;
+    options.sun_hours = std::any_of(scene.outputs.begin(), scene.outputs.end(),
+                                    [](const Output& o) { return o.aov == Aov::sun_hours; });
     return hash_of(render_frame(scene, options, exec));
 }
 

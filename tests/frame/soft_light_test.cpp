@@ -182,6 +182,7 @@ Scene under_the_sky(int sky_samples, SkyKind kind) {
     scene.sky.kind = kind;
     scene.sky.occlusion = true;
     scene.sky.samples = sky_samples;
+    scene.sky.bounces = 0;
     scene.camera.eye = {0, 2, 5};
     scene.camera.look_at = {0, 0, 0};
     return scene;

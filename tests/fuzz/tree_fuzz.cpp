@@ -6,9 +6,9 @@
 
 #include "core/error.h"
 #include "core/hash.h"
-#include "hierarchy/decode.h"
-#include "hierarchy/tree_file.h"
-#include "hierarchy/tree_file_format.h"
+#include "hierarchy/codes/decode.h"
+#include "hierarchy/codes/tree_file.h"
+#include "hierarchy/codes/tree_file_format.h"
 
 namespace obscura {
 namespace {
@@ -42,6 +42,7 @@ void seal_tree_file(std::span<std::uint8_t> bytes) {
         ShadowTree tree;
         tree.bytes = record.bytes;
         tree.code.units = bytes.data() + record.first_byte;
+        tree.code.code = static_cast<ShadowCode>(record.code);
         tree.code.layout = static_cast<TreeLayout>(record.layout);
         tree.code.levels = record.levels;
         std::copy(std::begin(record.offset_scale), std::end(record.offset_scale), tree.code.offset_scale);

@@ -17,9 +17,9 @@
 #include "bench/shadows/scenes.h"
 #include "core/topology.h"
 #include "hierarchy/build.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/query.h"
 #include "hierarchy/combine.h"
-#include "hierarchy/query.h"
-#include "hierarchy/shadow_tree.h"
 #include "raster/view.h"
 #include "tests/hierarchy/region_oracle.h"
 #include "tests/hierarchy/tree_compare.h"
@@ -114,21 +114,32 @@ void check_every_texel(const Lit& scene, int side, Receivers receivers) {
     const LightView view = scene.view(side);
     BuildParams params;
     params.receivers = receivers;
+    params.keep_intervals = true;
     const MultiresTree tree = build_shadow_tree(scene.mesh, view, params, Exec{});
-    const ShadowTree encoded = encode_tree(tree, view);
-    Decoded decoded(encoded);
+    std::vector<ShadowTree> encoded;
+    for (const ShadowCodeRow& row : shadow_codes) {
+        EncodeParams encode;
+        encode.code = row.code;
+        encoded.push_back(encode_tree(tree, view, encode));
+    }
+    std::vector<Decoded> decoded(encoded.begin(), encoded.end());
     const int rows = std::min(side, 1024);
     RasterScratch scratch;
     Image<DepthInterval> strip(side, rows);
-    std::size_t outside = 0;
+    std::vector<std::size_t> outside(encoded.size(), 0);
     for (int y = 0; y < side; y += rows) {
         IntervalParams of_strip;
         of_strip.receivers = receivers;
         of_strip.region = {0, y, side, rows};
         interval_map(scene.mesh, view, of_strip, Exec{}, scratch, strip.view());
-        outside += decoded.failures(strip.pixels.data(), 0, y, side, rows);
+        for (std::size_t i = 0; i < encoded.size(); ++i)
+            outside[i] += decoded[i].failures(strip.pixels.data(), 0, y, side, rows);
     }
-    EXPECT_EQ(outside, 0u) << "of " << decoded.checked << " texels";
+    for (std::size_t i = 0; i < encoded.size(); ++i) {
+        EXPECT_EQ(outside[i], 0u) << name_of(shadow_codes[i].code) << ", of " << decoded[i].checked
+                                  << " texels";
+    }
+    EXPECT_LT(encoded[1].bytes, encoded[0].bytes) << "merging found something";
     if (side <= 4096) {
         EXPECT_TRUE(same_tree(tree, bottom_up_tree(scene.mesh, view, receivers)));
     }
@@ -169,7 +180,7 @@ TEST_P(ShadowData, EveryTexelDecodesToADepthOfItsInterval) {
     if (!scene) GTEST_SKIP() << "no shared data: " << name;
     const bool open = name == "bunny" || name == "ficus_tree";
     check_every_texel(*scene, 1024, Receivers::any);
-    check_every_texel(*scene, 512, Receivers::static_only);
+    check_every_texel(*scene, 1024, Receivers::static_only);
     check_samples(*scene, 1 << 20, false, 60);
     if (!slow_tests()) return;
     check_every_texel(*scene, 4096, Receivers::any);

@@ -6,9 +6,9 @@
 #include <random>
 
 #include "hierarchy/build.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/query.h"
 #include "hierarchy/combine.h"
-#include "hierarchy/query.h"
-#include "hierarchy/shadow_tree.h"
 #include "tests/hierarchy/hard_meshes.h"
 #include "tests/hierarchy/region_oracle.h"
 #include "tests/hierarchy/tree_compare.h"

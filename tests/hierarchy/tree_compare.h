@@ -16,7 +16,8 @@
 
 namespace obscura {
 
-/// Node by node in the order of the construction, bits of the values included.
+/// Node by node in the order of the construction, bits of the values included, and the intervals if both have
+/// them.
 inline ::testing::AssertionResult same_tree(const MultiresTree& a, const MultiresTree& b) {
     if (a.levels != b.levels || a.nodes.size() != b.nodes.size()) {
         return ::testing::AssertionFailure() << a.nodes.size() << " nodes and " << b.nodes.size();
@@ -30,6 +31,8 @@ inline ::testing::AssertionResult same_tree(const MultiresTree& a, const Multire
     for (std::size_t i = 0; i < a.nodes.size(); ++i) {
         if (!same(a.nodes[i], b.nodes[i])) return ::testing::AssertionFailure() << "node " << i << " differs";
     }
+    if (!a.intervals.empty() && !b.intervals.empty() && a.intervals != b.intervals)
+        return ::testing::AssertionFailure() << "an interval differs";
     return ::testing::AssertionSuccess();
 }
 

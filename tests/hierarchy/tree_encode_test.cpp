@@ -10,8 +10,10 @@
 
 #include "core/buffer.h"
 #include "core/error.h"
-#include "hierarchy/decode.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
 #include "hierarchy/layout_plan.h"
+#include "hierarchy/mh/mh.h"
 #include "hierarchy/tree_units.h"
 #include "tests/hierarchy/tree_samples.h"
 
@@ -85,7 +87,7 @@ TEST(TreeEncode, ShortOffsetsGrowScalesAndLoseNothing) {
                 const auto& scale = encoded.code.offset_scale;
                 scaled[static_cast<int>(layout)] += *std::max_element(scale, scale + 21) > 1;
                 expect_same_values(sample.tree, encoded);
-                EXPECT_TRUE(same_nodes(decode_tree(encoded), sample.tree));
+                EXPECT_TRUE(same_nodes(decode_mh(encoded), sample.tree));
             }
         }
     }
@@ -97,7 +99,7 @@ TEST(TreeEncode, DecodingGivesTheTreeBack) {
     for (const TreeSample& sample : tree_samples()) {
         for (const TreeLayout layout : layouts)
             EXPECT_TRUE(
-                same_nodes(decode_tree(encode_tree(sample.tree, {}, {layout, 0, 0, 0.125})), sample.tree))
+                same_nodes(decode_mh(encode_tree(sample.tree, {}, {layout, 0, 0, 0.125})), sample.tree))
                 << sample.name;
     }
 }

@@ -1,19 +1,20 @@
-// Lookups in serialised trees against the plain descent of the tree under construction, for every layout,
+// Lookups in serialised trees against the plain descent of the tree they stand for, for every code, layout,
 // level, instruction set, with and without a top grid.
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 #include <cstring>
 #include <random>
 
 #include "core/isa.h"
-#include "hierarchy/decode.h"
-#include "hierarchy/query.h"
-#include "hierarchy/tree_step.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
+#include "hierarchy/codes/query.h"
+#include "hierarchy/codes/tree_step.h"
 #include "raster/interval_map.h"
 #include "raster/view.h"
+#include "tests/hierarchy/code_cases.h"
 #include "tests/hierarchy/tree_oracle.h"
 #include "tests/raster/raster_solids.h"
 
@@ -105,43 +106,41 @@ void expect_lookups(const MultiresTree& tree, const TreeCode& code, std::size_t 
     }
 }
 
-class Layouts : public testing::TestWithParam<TreeLayout> {};
+class Codes : public testing::TestWithParam<CodeCase> {};
 
-TEST_P(Layouts, FindTheValuesOfThePlainDescentAtEveryLevel) {
+TEST_P(Codes, FindTheValuesOfThePlainDescentAtEveryLevel) {
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
         for (const Image<DepthInterval>& map : {scene_intervals(seed, 128), random_intervals(seed, 64)}) {
             const MultiresTree tree = build_bottom_up(map.view());
             for (const int offset_bits : {0, 9}) {
-                ShadowTree code = encode_tree(tree, {}, {GetParam(), 0, offset_bits, 1e9});
-                ASSERT_EQ(code.code.layout, GetParam());
-                expect_lookups(tree, code.code, 517, seed);
+                ShadowTree code = encode_tree(tree, {}, params_of(GetParam(), 0, offset_bits));
+                ASSERT_EQ(code.code.code, GetParam().code);
+                ASSERT_EQ(code.code.layout, GetParam().layout);
+                const MultiresTree behind = tree_behind(code, tree);
+                expect_lookups(behind, code.code, 517, seed);
                 for (const int top : {1, 4, tree.levels}) {
                     set_top_grid(code, top);
-                    expect_lookups(tree, code.code, 230, seed + 10);
+                    expect_lookups(behind, code.code, 230, seed + 10);
                 }
             }
         }
     }
 }
 
-TEST_P(Layouts, HoldTreesOfOneNodeAndMapsOfOneTexel) {
+TEST_P(Codes, HoldTreesOfOneNodeAndMapsOfOneTexel) {
     for (const int side : {1, 2, 64}) {
         const Image<DepthInterval> background(side, side, DepthInterval{0.25f, 0.5f});
         const MultiresTree tree = build_bottom_up(background.view());
-        ShadowTree code = encode_tree(tree, {}, {GetParam()});
+        ShadowTree code = encode_tree(tree, {}, params_of(GetParam()));
+        const MultiresTree behind = tree_behind(code, tree);
         for (const std::size_t count : {std::size_t{1}, std::size_t{16}, std::size_t{33}})
-            expect_lookups(tree, code.code, count, 5);
+            expect_lookups(behind, code.code, count, 5);
         set_top_grid(code, tree.levels);
-        expect_lookups(tree, code.code, 40, 6);
+        expect_lookups(behind, code.code, 40, 6);
     }
 }
-constexpr std::array<TreeLayout, tree_layout_count> all_layouts = [] {
-    std::array<TreeLayout, tree_layout_count> all{};
-    for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = tree_layouts[i].layout;
-    return all;
-}();
-INSTANTIATE_TEST_SUITE_P(Query, Layouts, testing::ValuesIn(all_layouts));
+INSTANTIATE_TEST_SUITE_P(Query, Codes, testing::ValuesIn(code_cases),
+                         [](const testing::TestParamInfo<CodeCase>& c) { return std::string(c.param.name); });
 
 TEST(Query, NoPointsAreNoWork) {
     const Image<DepthInterval> background(8, 8);
@@ -187,18 +186,18 @@ TEST(Query, APathVisitsOnlyWhatIsNew) {
     const Image<DepthInterval> map = random_intervals(9, 64);
     const MultiresTree tree = build_bottom_up(map.view());
     const ShadowTree code = encode_tree(tree, {});
-    using Units = TreeUnits<TreeLayout::words24>;
+    using Code = MhCode<TreeLayout::words24>;
     TreePath path;
-    start_path<Units>(code.code, path);
-    extend_path<Units>(code.code, 21, 40, 0, path);
+    start_path<Code>(code.code, path);
+    extend_path<Code>(code.code, 21, 40, 0, path);
     const int first = path.steps;
     EXPECT_GT(first, 3);
     EXPECT_LE(first, 6);
-    extend_path<Units>(code.code, 21, 40, 0, path);
+    extend_path<Code>(code.code, 21, 40, 0, path);
     EXPECT_EQ(path.steps, first) << "the same texel costs nothing";
-    extend_path<Units>(code.code, 20, 40, 0, path);
+    extend_path<Code>(code.code, 20, 40, 0, path);
     EXPECT_LE(path.steps, first + 1) << "a sibling costs a step at most";
-    extend_path<Units>(code.code, 21, 40, 6, path);
+    extend_path<Code>(code.code, 21, 40, 6, path);
     EXPECT_LE(path.steps, first + 1) << "the root is known";
 }
 

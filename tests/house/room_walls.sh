@@ -14,8 +14,11 @@ scenes           core
 raster           core
 raster/exact     raster
 hierarchy        raster
+hierarchy/mh     hierarchy
+hierarchy/mmh    hierarchy
+hierarchy/codes  hierarchy/mh hierarchy/mmh
 hierarchy/stack  hierarchy
-filters          hierarchy
+filters          hierarchy/codes
 optics/field     core
 optics/thesis    optics/field
 optics           filters optics/thesis

@@ -37,6 +37,9 @@ std::string camera(const std::string& keys) {
 std::string light(const std::string& keys) {
     return scene("[[light]]\nid = \"sun\"\n" + keys);
 }
+std::string sun_with(const std::string& keys) {
+    return light("type = \"sun\"\nlatitude_deg = 0\nlongitude_deg = 0\ntime = 2026-06-21T12:00:00Z\n" + keys);
+}
 
 const std::vector<BadScene>& bad_scenes() {
     static const std::string directional = "type = \"directional\"\nazimuth_deg = 0\nelevation_deg = 45\n";
@@ -184,6 +187,12 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:8:17: 'layout' must be one of \"words24\", \"words16\", \"bytes16\", not \"words32\"; did "
          "you "
          "mean 'words24'?"},
+        {"UnknownCode", light(directional + "shadow.code = \"dag\""),
+         "s.toml:8:15: 'code' must be one of \"mh\", \"mmh\", not \"dag\""},
+        {"LayoutOfMergedTrees", light(directional + "shadow = {code = \"mmh\", layout = \"words16\"}"),
+         "s.toml:8:33: 'layout' needs code = \"mh\""},
+        {"PartsOfMergedTrees", light(directional + "shadow = {code = \"mmh\", scope = \"frame\"}"),
+         "s.toml:8:18: 'code' = \"mmh\" needs scope = \"full\""},
         {"TopLevels", light(directional + "shadow.top_levels = 11"),
          "s.toml:8:21: 'top_levels' must be in [0, 10], not 11"},
         {"NoMagnification", light(directional + "shadow.max_magnification = 0"),
@@ -223,6 +232,27 @@ const std::vector<BadScene>& bad_scenes() {
         {"SecondTooFar",
          light("type = \"sun\"\nlatitude_deg = 0\nlongitude_deg = 0\ntime = 2016-12-31T23:59:61Z"),
          "s.toml:8:27: in time: expected second between 0 and 59 (inclusive), saw 61"},
+        {"PathOverMidnight", sun_with("from = \"22:00\"\nto = \"04:00\""),
+         "s.toml:10:6: 'to' (04:00) must be later than 'from' (22:00) on the same day; a path does not pass "
+         "midnight, and 24:00 is the day's end"},
+        {"PathOfNoLength", sun_with("to = 00:00:00"),
+         "s.toml:9:6: 'to' (00:00:00) must be later than 'from' (00:00) on the same day; a path does not "
+         "pass "
+         "midnight, and 24:00 is the day's end"},
+        {"PathFromTheDaysEnd", sun_with("from = \"24:00\""),
+         "s.toml:9:8: 'to' (24:00) must be later than 'from' (24:00) on the same day; a path does not pass "
+         "midnight, and 24:00 is the day's end"},
+        {"PathFromNoTime", sun_with("from = \"6:30\""),
+         "s.toml:9:8: 'from' must be \"HH:MM\" or \"HH:MM:SS\", 00:00 to 24:00, not \"6:30\""},
+        {"PathBeyondTheDay", sun_with("to = \"24:01\""),
+         "s.toml:9:6: 'to' must be \"HH:MM\" or \"HH:MM:SS\", 00:00 to 24:00, not \"24:01\""},
+        {"PathFromANumber", sun_with("from = 6"), "s.toml:9:8: 'from' must be a string, not an integer"},
+        {"PathOfNoSteps", sun_with("steps = 0"), "s.toml:9:9: 'steps' must be in [1, 1440], not 0"},
+        {"PathOfManySteps", sun_with("steps = 1441"), "s.toml:9:9: 'steps' must be in [1, 1440], not 1441"},
+        {"PathOfAnotherLight", light(directional + "from = \"06:00\""),
+         "s.toml:8:1: 'from' does not apply to [[light]] with type = \"directional\""},
+        {"HoursOfNoSun", light(directional + "[[output]]\nfile = \"a.png\"\naov = \"sun_hours\""),
+         "s.toml:10:7: 'aov' = \"sun_hours\" needs a light of type \"sun\""},
         {"EyeAtItsTarget", "format = 1\n[camera]\neye_m = [0, 0, 0]\nlook_at_m = [0, 0, -1e-40]\n",
          "s.toml:4:13: 'look_at_m' is nearer to 'eye_m' than 1e-06 m"},
         {"SpotAtItsTarget",

@@ -57,6 +57,8 @@ inline std::vector<std::string> candidates(const KeySpec& key) {
                     values.push_back(std::to_string(v));
             }
             return values;
+        case KeyType::time_of_day:
+            return {"\"07:30\"", "\"18:00:30\""};
         case KeyType::size2:
             return {"[32, 16]"};
         case KeyType::vec2:

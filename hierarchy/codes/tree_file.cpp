@@ -1,4 +1,4 @@
-#include "hierarchy/tree_file.h"
+#include "hierarchy/codes/tree_file.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +13,9 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/mapped_file.h"
-#include "hierarchy/decode.h"
-#include "hierarchy/tree_check.h"
-#include "hierarchy/tree_file_format.h"
+#include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
+#include "hierarchy/codes/tree_file_format.h"
 #include "hierarchy/tree_units.h"
 
 namespace obscura {
@@ -72,6 +72,7 @@ TreeRecord record_of(const ShadowTree& tree, std::uint64_t first_byte) {
     record.min_depth = view.min_depth;
     record.max_depth = view.max_depth;
     record.perspective = view.perspective ? 1 : 0;
+    record.code = static_cast<std::uint32_t>(code.code);
     record.layout = static_cast<std::uint32_t>(code.layout);
     record.levels = code.levels;
     record.top_levels = code.top_levels;
@@ -167,25 +168,20 @@ class Reader {
         tree.padding_bytes = record.padding_bytes;
         tree.bits = owner_;
         tree.code.units = bytes_.data() + record.first_byte;
+        tree.code.code = static_cast<ShadowCode>(record.code);
         tree.code.layout = static_cast<TreeLayout>(record.layout);
         tree.code.levels = record.levels;
         std::copy(std::begin(record.offset_scale), std::end(record.offset_scale), tree.code.offset_scale);
 
         if (content_hash(tree) != record.content_hash) fail(i, "is altered: its checksum differs");
-        const std::uint64_t units = record.bytes / unit_bytes(tree.code.layout);
-        if (const char* fault = fault_of(tree.code, units, tree.counts)) fail(i, fault);
-        // Counts are true now, so nothing overflows here.
-        const std::uint64_t padding =
-            byte_of_unit(tree.code.layout, units - node_units(tree.code.layout, tree.counts));
-        if (padding != record.padding_bytes) fail(i, "has other padding than stated");
+        if (const char* fault = row_of(tree.code.code).fault_of(tree)) fail(i, fault);
         set_top_grid(tree, record.top_levels);
         return tree;
     }
 
     /// Numbers that only a program gone wrong, or an adversary, can have written under a right checksum.
     void check_record(std::uint32_t i, const TreeRecord& record) const {
-        const auto layout = static_cast<TreeLayout>(record.layout);
-        if (row_of(layout).layout != layout) fail(i, "has an unknown layout");
+        if (find_code(static_cast<ShadowCode>(record.code)) == nullptr) fail(i, "has an unknown code");
         if (record.levels < 0 || record.levels > max_tree_levels) fail(i, "has too many levels");
         if (record.top_levels < 0 || record.top_levels > std::min<int>(record.levels, max_top_levels))
             fail(i, "has too many levels in its top grid");
@@ -195,15 +191,12 @@ class Reader {
                                         [](double m) { return std::isfinite(m); }) &&
                             std::isfinite(record.near_w) && std::isfinite(record.min_depth) &&
                             std::isfinite(record.max_depth);
-        if (!finite || record.perspective > 1 || record.reserved != 0)
-            fail(i, "has a view that means nothing");
+        if (!finite || record.perspective > 1) fail(i, "has a view that means nothing");
         const auto in_range = [](std::uint32_t scale) { return scale <= max_tree_units; };
         if (!std::all_of(std::begin(record.offset_scale), std::end(record.offset_scale), in_range))
             fail(i, "has a scale that is too large");
         const std::uint64_t room = bytes_.size() - record.first_byte;
         if (record.bytes > room || extent_of(record.bytes) > room) fail(i, "is cut short");
-        if (record.bytes % unit_bytes(static_cast<TreeLayout>(record.layout)) != 0)
-            fail(i, "ends within a word");
     }
 
     Bytes bytes_;
@@ -215,8 +208,10 @@ class Reader {
 
 std::uint64_t content_hash(const ShadowTree& tree) {
     const TreeCode& code = tree.code;
-    return Hasher{}
-        .value(static_cast<std::uint32_t>(code.layout))
+    Hasher hasher;
+    // mh was the only code once: its hashes are without a name.
+    if (code.code != ShadowCode::mh) hasher.value(code.code);
+    return hasher.value(static_cast<std::uint32_t>(code.layout))
         .value(code.levels)
         .value(code.offset_scale)
         .value(bulk_hash(code.units, static_cast<std::size_t>(tree.bytes)))

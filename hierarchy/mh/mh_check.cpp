@@ -1,6 +1,7 @@
-#include "hierarchy/tree_check.h"
+// Whether a serialised tree is sound, for trees that come from outside.
 
 #include "core/error.h"
+#include "hierarchy/mh/mh.h"
 #include "hierarchy/tree_units.h"
 
 namespace obscura {
@@ -75,9 +76,16 @@ class Walk {
 
 }  // namespace
 
-const char* fault_of(const TreeCode& code, std::uint64_t units, const MultiresCounts& counts) {
+const char* mh_fault_of(const ShadowTree& tree) {
+    const TreeCode& code = tree.code;
     CHECK(code.levels >= 0 && code.levels <= max_tree_levels);
-    return Walk(code, units, counts).run();
+    if (row_of(code.layout).layout != code.layout) return "has an unknown layout";
+    if (tree.bytes % unit_bytes(code.layout) != 0) return "ends within a word";
+    const std::uint64_t units = tree.bytes / unit_bytes(code.layout);
+    if (const char* fault = Walk(code, units, tree.counts).run()) return fault;
+    // Counts are true now, so nothing overflows here.
+    const std::uint64_t padding = byte_of_unit(code.layout, units - node_units(code.layout, tree.counts));
+    return padding == tree.padding_bytes ? nullptr : "has other padding than stated";
 }
 
 }  // namespace obscura

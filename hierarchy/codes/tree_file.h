@@ -10,16 +10,12 @@
 
 #include "core/file_output.h"
 #include "hierarchy/shadow_tree.h"
+#include "hierarchy/tree_file_key.h"
 
 namespace obscura {
 
-/// What the trees were made from, as a hash of geometry, light and settings: the caller's affair.
-struct TreeFileKey {
-    std::uint64_t high = 0, low = 0;
-    friend bool operator==(const TreeFileKey&, const TreeFileKey&) = default;
-};
-
-/// Hash of what lookups see of a tree: layout, levels, scales and units. Not the view, counts or top grid.
+/// Hash of what lookups see of a tree: code, layout, levels, scales and units. Not the view, counts or top
+/// grid.
 std::uint64_t content_hash(const ShadowTree& tree);
 
 /// Writes one or more trees (six for a point light) atomically, without joining them in memory. Each tree's
@@ -39,13 +35,6 @@ TreeFile read_tree_file(const std::filesystem::path& path);
 /// The same for bytes in memory, aligned to 64, that `owner` keeps alive; `name` is for messages.
 TreeFile read_tree_file(std::span<const std::uint8_t> bytes, std::shared_ptr<const void> owner,
                         const std::string& name);
-
-enum class CacheState {
-    usable,
-    absent,         ///< no such file
-    other_key,      ///< a sound header with another key: made from something else
-    other_version,  ///< by another version of this program
-};
 
 struct CachedTrees {
     CacheState state = CacheState::absent;

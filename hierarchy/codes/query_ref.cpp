@@ -1,27 +1,27 @@
 // Lookups in a serialised tree, one point at a time.
 
-#include "hierarchy/query.h"
-#include "hierarchy/tree_step.h"
+#include "hierarchy/codes/query.h"
+#include "hierarchy/codes/tree_step.h"
 
 namespace obscura::ref {
 namespace {
 
 /// Lazy fetching: the way down carries only the place of the last value.
-template <class Units>
+template <class Code>
 float value_of(const TreeCode& tree, std::int32_t x, std::int32_t y, int level) {
-    TopNode place = tree_root<Units>();
+    TopNode place = Code::root(tree);
     for (int height = tree.levels; height > level && place.node != no_tree_node; --height)
-        place = tree_child<Units>(tree, place, height, x, y);
-    return unit_value<Units>(tree, place.value);
+        place = Code::child(tree, place, height, x, y);
+    return Code::depth(tree, place);
 }
 
 }  // namespace
 
 void stored_values(const TreeCode& tree, const std::int32_t* x, const std::int32_t* y, std::size_t count,
                    int level, float* value) noexcept {
-    with_layout(tree, [&]<class Units>(Units) {
+    with_code(tree, [&]<class Code>(Code) {
         for (std::size_t i = 0; i < count; ++i)
-            value[i] = value_of<Units>(tree, x[i], y[i], level);
+            value[i] = value_of<Code>(tree, x[i], y[i], level);
     });
 }
 

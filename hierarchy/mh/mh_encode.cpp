@@ -5,6 +5,8 @@
 // filled. The authors' code writes a tree of one node as a leaf that its readers take for a full node; here
 // the root is a full node always.
 
+#include "hierarchy/mh/mh.h"
+
 #include <bit>
 #include <cstring>
 #include <utility>
@@ -13,18 +15,13 @@
 
 #include "core/buffer.h"
 #include "core/error.h"
-#include "hierarchy/decode.h"
 #include "hierarchy/layout_plan.h"
-#include "hierarchy/shadow_tree.h"
 #include "hierarchy/tree_units.h"
 
 namespace obscura {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "headers are written as little-endian words");
-
-/// Readable bytes behind the last unit: lookups fetch four bytes at any unit.
-constexpr std::size_t slack_bytes = 3;
 
 /// Writes groups, left to right, at the places that the plan gives them.
 class Emitter {
@@ -35,7 +32,7 @@ class Emitter {
     void run() {
         // The parent that stands above the root: a group of one full node, at unit 0.
         group(&tree_.root, static_cast<std::uint32_t>(ChildKind::full), tree_.levels, 0);
-        std::memset(bits_ + byte_of_unit(layout_, plan_.units), 0, slack_bytes);
+        std::memset(bits_ + byte_of_unit(layout_, plan_.units), 0, tree_slack_bytes);
     }
 
   private:
@@ -116,7 +113,7 @@ std::pair<TreeLayout, LayoutPlan> choose_layout(const TreeShape& shape, const En
 
 }  // namespace
 
-ShadowTree encode_tree(const MultiresTree& tree, const LightView& view, const EncodeParams& params) {
+ShadowTree encode_mh(const MultiresTree& tree, const LightView& view, const EncodeParams& params) {
     CHECK(params.offset_bits == 0 ||
           (params.offset_bits >= min_offset_bits && params.offset_bits <= offset_bits(params.layout)));
     const TreeShape shape = shape_of<4>(tree);
@@ -127,7 +124,8 @@ ShadowTree encode_tree(const MultiresTree& tree, const LightView& view, const En
     result.counts = shape.counts;
     result.bytes = byte_of_unit(layout, plan.units);
     result.padding_bytes = byte_of_unit(layout, plan.padding);
-    auto bits = std::make_shared<Buffer<std::uint8_t>>(static_cast<std::size_t>(result.bytes) + slack_bytes);
+    auto bits =
+        std::make_shared<Buffer<std::uint8_t>>(static_cast<std::size_t>(result.bytes) + tree_slack_bytes);
     Emitter(tree, layout, plan, bits->data()).run();
 
     result.code.units = bits->data();
@@ -136,7 +134,6 @@ ShadowTree encode_tree(const MultiresTree& tree, const LightView& view, const En
     for (int height = 0; height <= tree.levels; ++height)
         result.code.offset_scale[height] = plan.scale[height];
     result.bits = std::move(bits);
-    set_top_grid(result, params.top_levels);
     return result;
 }
 

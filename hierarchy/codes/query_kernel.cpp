@@ -1,8 +1,8 @@
 // Lookups in a serialised tree, sixteen points at a time.
 
-#include "hierarchy/query.h"
+#include "hierarchy/codes/query.h"
 
-#include "hierarchy/tree_lanes.h"
+#include "hierarchy/codes/tree_lanes.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {
@@ -54,11 +54,11 @@ OBSCURA_INLINE std::uint16_t lit_bits(const Group16& g, const F32& stored) {
 
 /// Through the dense top grid if there is one and the descent goes below it; else from the root. Returns the
 /// height where the lanes stand.
-template <class Units>
+template <class Code>
 OBSCURA_INLINE int enter(const TreeCode& tree, const I32& x, const I32& y, std::uint32_t inside, int level,
                          Descents16& d) {
     const int grid = tree.levels - tree.top_levels;
-    d = descents_from(tree_root<Units>(), mask_of(inside));
+    d = descents_from(Code::root(tree), mask_of(inside));
     if (tree.top == nullptr || level > grid) return tree.levels;
     const I32 entry = shift_right(y, grid) * splat(1 << tree.top_levels) + shift_right(x, grid);
     const auto* entries = reinterpret_cast<const std::uint8_t*>(tree.top);
@@ -70,27 +70,27 @@ OBSCURA_INLINE int enter(const TreeCode& tree, const I32& x, const I32& y, std::
 }
 
 /// Groups of points from `first` on, `n` of them, each lane on its own way.
-template <class Units, int n>
+template <class Code, int n>
 OBSCURA_INLINE void descend_groups(const TreeCode& tree, const Group16 (&group)[n], int level,
                                    F32 (&stored)[n]) {
-    const std::uint8_t* base = biased_units<Units>(tree);
+    const std::uint8_t* base = biased_units<Code>(tree);
     Descents16 d[n];
     int height = 0;
     for (int k = 0; k < n; ++k)
-        height = enter<Units>(tree, group[k].x, group[k].y, group[k].inside, level, d[k]);
+        height = enter<Code>(tree, group[k].x, group[k].y, group[k].inside, level, d[k]);
     for (; height > level; --height) {
         Mask inner = d[0].inner;
         for (int k = 1; k < n; ++k)
             inner = inner | d[k].inner;
         if (none(inner)) break;
         for (int k = 0; k < n; ++k)
-            descend<Units>(tree, base, height, child_bit(height, group[k].x, group[k].y), d[k]);
+            descend(Code{}, tree, base, height, child_bit(height, group[k].x, group[k].y), d[k]);
     }
     for (int k = 0; k < n; ++k)
-        stored[k] = values<Units>(base, d[k]);
+        stored[k] = values(Code{}, tree, base, d[k]);
 }
 
-template <class Units>
+template <class Code>
 void visibility_of(const TreeCode& tree, const MapPoints& points, int level, std::uint16_t* lit) {
     const std::int32_t size = 1 << tree.levels;
     std::size_t first = 0;
@@ -99,20 +99,20 @@ void visibility_of(const TreeCode& tree, const MapPoints& points, int level, std
         F32 stored[together];
         for (std::size_t k = 0; k < together; ++k)
             group[k] = group_at(points, first + 16 * k, size);
-        descend_groups<Units>(tree, group, level, stored);
+        descend_groups<Code>(tree, group, level, stored);
         for (std::size_t k = 0; k < together; ++k)
             lit[first / 16 + k] = lit_bits(group[k], stored[k]);
     }
     for (; first < points.count; first += 16) {
         const Group16 group[1] = {group_at(points, first, size)};
         F32 stored[1];
-        descend_groups<Units>(tree, group, level, stored);
+        descend_groups<Code>(tree, group, level, stored);
         lit[first / 16] = lit_bits(group[0], stored[0]);
     }
 }
 
 /// One block of neighbours: together to their lowest common node, each on its own from there.
-template <class Units>
+template <class Code>
 OBSCURA_INLINE F32 stored_of_block(const TreeCode& tree, const std::uint8_t* base, const Group16& g,
                                    int level, std::int32_t x0, std::int32_t y0, TreePath& path) {
     const Mask inside = mask_of(g.inside);
@@ -122,23 +122,23 @@ OBSCURA_INLINE F32 stored_of_block(const TreeCode& tree, const std::uint8_t* bas
     Descents16 d;
     if (tree.top != nullptr && height > tree.levels - tree.top_levels) {
         // Far apart: each from its own place in the grid.
-        const int at = enter<Units>(tree, g.x, g.y, g.inside, level, d);
-        descend_to<Units>(tree, base, at, level, g.x, g.y, d);
-        return values<Units>(base, d);
+        const int at = enter<Code>(tree, g.x, g.y, g.inside, level, d);
+        descend_to<Code>(tree, base, at, level, g.x, g.y, d);
+        return values(Code{}, tree, base, d);
     }
-    const TopNode place = extend_path<Units>(tree, x0, y0, height, path);
-    if (height == level || place.node == no_tree_node) return splat(unit_value<Units>(tree, place.value));
+    const TopNode place = extend_path<Code>(tree, x0, y0, height, path);
+    if (height == level || place.node == no_tree_node) return splat(Code::depth(tree, place));
     d = descents_from(place, inside);
-    descend_to<Units>(tree, base, height, level, g.x, g.y, d);
-    return values<Units>(base, d);
+    descend_to<Code>(tree, base, height, level, g.x, g.y, d);
+    return values(Code{}, tree, base, d);
 }
 
-template <class Units>
+template <class Code>
 void coherent_visibility_of(const TreeCode& tree, const MapPoints& points, int level, std::uint16_t* lit) {
     const std::int32_t size = 1 << tree.levels;
-    const std::uint8_t* base = biased_units<Units>(tree);
+    const std::uint8_t* base = biased_units<Code>(tree);
     TreePath path;
-    start_path<Units>(tree, path);
+    start_path<Code>(tree, path);
     for (std::size_t first = 0; first < points.count; first += 16) {
         const Group16 g = group_at(points, first, size);
         if (g.inside == 0) {
@@ -147,7 +147,7 @@ void coherent_visibility_of(const TreeCode& tree, const MapPoints& points, int l
         }
         const auto lane = first + static_cast<std::size_t>(__builtin_ctz(g.inside));
         lit[first / 16] =
-            lit_bits(g, stored_of_block<Units>(tree, base, g, level, points.x[lane], points.y[lane], path));
+            lit_bits(g, stored_of_block<Code>(tree, base, g, level, points.x[lane], points.y[lane], path));
     }
 }
 
@@ -155,12 +155,12 @@ void coherent_visibility_of(const TreeCode& tree, const MapPoints& points, int l
 
 void stored_values(const TreeCode& tree, const std::int32_t* x, const std::int32_t* y, std::size_t count,
                    int level, float* value) noexcept {
-    with_layout(tree, [&]<class Units>(Units) {
+    with_code(tree, [&]<class Code>(Code) {
         const MapPoints points{x, y, value, count};  // depths are not looked at
         for (std::size_t first = 0; first < count; first += 16) {
             const Group16 group[1] = {group_at(points, first, 1 << tree.levels)};
             F32 stored[1];
-            descend_groups<Units>(tree, group, level, stored);
+            descend_groups<Code>(tree, group, level, stored);
             if (count - first >= 16) {
                 store(value + first, stored[0]);
                 continue;
@@ -174,12 +174,12 @@ void stored_values(const TreeCode& tree, const std::int32_t* x, const std::int32
 }
 
 void visibility(const TreeCode& tree, const MapPoints& points, int level, std::uint16_t* lit) noexcept {
-    with_layout(tree, [&]<class Units>(Units) { visibility_of<Units>(tree, points, level, lit); });
+    with_code(tree, [&]<class Code>(Code) { visibility_of<Code>(tree, points, level, lit); });
 }
 
 void coherent_visibility(const TreeCode& tree, const MapPoints& points, int level,
                          std::uint16_t* lit) noexcept {
-    with_layout(tree, [&]<class Units>(Units) { coherent_visibility_of<Units>(tree, points, level, lit); });
+    with_code(tree, [&]<class Code>(Code) { coherent_visibility_of<Code>(tree, points, level, lit); });
 }
 
 }  // namespace obscura::OBSCURA_ISA

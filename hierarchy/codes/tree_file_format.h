@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "hierarchy/tree_code.h"
+#include "hierarchy/shadow_tree.h"
 
 namespace obscura {
 
@@ -16,7 +16,7 @@ constexpr char tree_file_magic[8] = {'O', 'B', 'S', 'C', 'T', 'R', 'E', 'E'};
 constexpr std::uint32_t tree_file_version = 1;
 constexpr std::uint32_t tree_file_byte_order = 0x01020304u;
 constexpr std::uint64_t tree_file_alignment = 64;
-constexpr std::uint64_t tree_file_slack = 3;
+constexpr std::uint64_t tree_file_slack = tree_slack_bytes;
 
 struct TreeFileHeader {
     char magic[8] = {};
@@ -45,7 +45,7 @@ struct TreeRecord {
     std::int32_t levels = 0;
     std::int32_t top_levels = 0;
     std::uint32_t offset_scale[max_tree_levels + 1] = {};
-    std::uint32_t reserved = 0;  ///< zero
+    std::uint32_t code = 0;  ///< ShadowCode
 };
 static_assert(sizeof(TreeRecord) == 312);
 

@@ -1,0 +1,69 @@
+#pragma once
+// One descent through a serialised tree of any code, one node at a time: the scalar half of every lookup.
+// POD: kernels include this; every function is inlined, so that no object exports one.
+//
+// Scandolo, Bauszat, Eisemann 2016, section 3.2 (traversal) and figure 5 (the lowest common node of several
+// points is where the bits of their coordinates part).
+//
+// A code gives, as static functions (mh/mh_step.h and mmh/mmh_step.h):
+//   root(tree)                         where every descent starts: the root has a value
+//   child(tree, place, height, x, y)   from a node of height `height` (>= 1) to its child that holds texel
+//                                      (x, y); the descent must not have ended
+//   depth(tree, place)                 the depth that the values on the way come to
+
+#include <cstdint>
+
+#include "hierarchy/mh/mh_step.h"
+#include "hierarchy/mmh/mmh_step.h"
+#include "hierarchy/tree_code.h"
+
+namespace obscura {
+
+/// Calls f(Code{}) with what reads the tree.
+template <class F>
+OBSCURA_TREE_INLINE auto with_code(const TreeCode& tree, F&& f) {
+    if (tree.code == ShadowCode::mmh) return f(MmhCode{});
+    return with_mh_layout(tree, f);
+}
+
+/// Height of the lowest node that holds both points whose coordinates differ in `bits` (x bits | y bits).
+OBSCURA_TREE_INLINE int common_height(std::uint32_t bits) {
+    return bits == 0 ? 0 : 32 - __builtin_clz(bits);
+}
+
+/// The way from the root to a texel, kept so that the next texel's descent starts where the two ways part. It
+/// has no use for a top grid: neighbours seldom part so far up.
+struct TreePath {
+    TopNode at[max_tree_levels + 1];  ///< by height, from `bottom` up
+    std::int32_t x = 0, y = 0;
+    std::int32_t bottom = 0;  ///< where the descent ended, or how far it was asked for
+    std::int32_t steps = 0;   ///< headers read so far
+};
+
+template <class Code>
+OBSCURA_TREE_INLINE void start_path(const TreeCode& tree, TreePath& path) {
+    path.bottom = tree.levels;
+    path.at[tree.levels] = Code::root(tree);
+    path.x = path.y = path.steps = 0;
+}
+
+/// Turns the path to (x, y). Returns where its descent stands at `height`: at a node of that height, or
+/// ended.
+template <class Code>
+OBSCURA_TREE_INLINE TopNode extend_path(const TreeCode& tree, std::int32_t x, std::int32_t y, int height,
+                                        TreePath& path) {
+    const int parted = common_height(static_cast<std::uint32_t>((path.x ^ x) | (path.y ^ y)));
+    path.x = x;
+    path.y = y;
+    if (path.bottom < parted) path.bottom = parted;
+    if (path.bottom <= height) return path.at[height];
+    TopNode place = path.at[path.bottom];
+    while (path.bottom > height && place.node != no_tree_node) {
+        place = Code::child(tree, place, path.bottom, x, y);
+        path.at[--path.bottom] = place;
+        ++path.steps;
+    }
+    return place;
+}
+
+}  // namespace obscura
