@@ -18,6 +18,7 @@
 #include "app/frame/shadow_text.h"
 #include "app/frame/shadows.h"
 #include "app/frame/soft_light.h"
+#include "app/frame/stack_shadow.h"
 #include "app/frame/sun_hours.h"
 #include "app/frame/sun_hours_text.h"
 #include "app/pair/pair.h"
@@ -27,6 +28,7 @@
 #include "app/scene/rules_shadow.h"
 #include "app/scene/stereo_settings.h"
 #include "core/count_text.h"
+#include "core/error.h"
 #include "core/mesh_memory.h"
 #include "raster/light_samples.h"
 #include "raster/view.h"
@@ -92,15 +94,20 @@ bool open_casters(const Mesh& mesh) {
     return false;
 }
 
-/// What exact shadows take, in triangles and samples; seconds are the machine's.
-std::string exact_text(const SceneLight& light, const Scene& scene) {
-    const Mesh& mesh = scene.mesh;
+std::size_t caster_count(const Mesh& mesh) {
     std::size_t casters = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
         casters += mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow ? 1 : 0;
+    return casters;
+}
+
+std::int64_t samples_of_picture(const Scene& scene) {
     const std::int64_t margin = glare_margin(scene);
-    const std::int64_t samples =
-        (scene.render.width + 2 * margin) * (scene.render.height + 2 * margin) * scene.render.samples;
+    return (scene.render.width + 2 * margin) * (scene.render.height + 2 * margin) * scene.render.samples;
+}
+
+/// What exact shadows take, in triangles and samples; seconds are the machine's.
+std::string exact_text(const SceneLight& light, const Scene& scene) {
     const int views = shadow_map_count(light);
     std::string soft;
     if (is_soft(light)) {
@@ -111,8 +118,43 @@ std::string exact_text(const SceneLight& light, const Scene& scene) {
     }
     return fmt::format(
         ", shadows of the picture's own samples, exact: {} to put in order{}, up to {} to look up{}",
-        count_text(casters, "triangle"), views > 1 ? fmt::format(" in {} views", views) : "",
-        count_text(samples, "sample"), soft);
+        count_text(caster_count(scene.mesh), "triangle"), views > 1 ? fmt::format(" in {} views", views) : "",
+        count_text(samples_of_picture(scene), "sample"), soft);
+}
+
+/// What is to be built once, and asked in every frame.
+std::string stack_text(const SceneLight& light, const std::optional<FoundResolution>& found,
+                       const Scene& scene) {
+    const ShadowSettings& s = light.shadow;
+    std::string out = fmt::format(", a stack of {} shadow maps", s.samples);
+    if (s.resolution == auto_resolution) return out + ", resolution auto\n";
+    out += fmt::format(" of {} x {}", s.resolution, s.resolution);
+    if (found) out += " (" + resolution_text(*found) + ")";
+    const auto casters = static_cast<std::int64_t>(caster_count(scene.mesh));
+    const Vec3d normal = plan_stack(scene.mesh, light).focus.plane_normal;
+    out += normal == Vec3d{0, 1, 0} ? ", aimed at a level plane" : ", aimed at a plane that faces it";
+    out += fmt::format(": {} to build {} times, once, {} to look up a frame, all maps each",
+                       count_text(casters, "triangle"), s.samples,
+                       count_text(samples_of_picture(scene), "sample"));
+    if (!s.cache.empty()) out += fmt::format("; kept in {}", s.cache);
+    return out + fmt::format("; about {}, {} more meanwhile\n", size_text(stack_bytes(light, casters)),
+                             size_text(stack_work_bytes(light, casters)));
+}
+
+/// Whether a stack of the light, which is kept for all frames, would take less time than `exact`.
+bool stack_pays(const SceneDocument& document, const SceneLight& light, const Scene& scene) {
+    const bool somewhere = is_soft(light) && !is_parallel(light.light.kind);
+    if (!somewhere || scene_frames(document).count() < stack_break_even_frames) return false;
+    for (const SceneTable* k : subtables(subtable(document.root, "frames"), "light"))
+        if (text(*k, "id") == light.light.id) return false;
+    SceneLight stacked = light;
+    if (stacked.shadow.samples == auto_samples) stacked.shadow.samples = stack_samples;
+    try {
+        plan_stack(scene.mesh, stacked);
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
 }
 
 /// `light`: its resolution as found. `reason`: for its method.
@@ -125,6 +167,7 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     const std::string why =
         fmt::format("          {}: {}\n", name_of(shadow_method_words, light.shadow.method), reason);
     if (light.shadow.method == ShadowMethod::exact) return out + exact_text(light, scene) + '\n' + why;
+    if (light.shadow.method == ShadowMethod::stack) return out + stack_text(light, found, scene) + why;
     const bool dense = light.shadow.method == ShadowMethod::map;
     out += fmt::format(", {} {} shadow map{}", maps, dense ? "dense" : "compressed", maps == 1 ? "" : "s");
     if (light.shadow.resolution == auto_resolution) return out + ", resolution auto\n" + why;
@@ -182,8 +225,9 @@ std::string hours_text(const Scene& scene) {
 std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const Exec& exec) {
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const SceneLight& light) {
-        return casts_shadows(light) && light.shadow.method == ShadowMethod::compressed &&
-               light.shadow.resolution == auto_resolution;
+        const bool maps =
+            light.shadow.method == ShadowMethod::compressed || light.shadow.method == ShadowMethod::stack;
+        return casts_shadows(light) && maps && light.shadow.resolution == auto_resolution;
     });
     if (!any || scene.mesh.triangles.empty()) return found;
     FrameCache cache;
@@ -237,8 +281,17 @@ std::string check_report(const CheckOptions& options) {
         estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = channels});
     const auto found = find_resolutions(scene, Exec{});
     const auto lights = subtables(document.root, "light");
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         out += light_text(scene.lights[i], found[i], scene, shadow_method_reason(document.root, *lights[i]));
+        if (stack_pays(document, scene.lights[i], scene)) {
+            out += fmt::format(
+                "note      light '{}': its points have casters of their own, put in order for every one of "
+                "{} "
+                "frames; method = \"stack\" makes a map of each once, for pictures that are nearly the "
+                "same\n",
+                scene.lights[i].light.id, scene_frames(document).count());
+        }
+    }
     out += hours_text(scene);
     out += lens_text(scene.optics, scene.render, glare_margin(scene));
     std::string needs = memory_text("", memory, scene);

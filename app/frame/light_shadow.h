@@ -1,8 +1,9 @@
 #pragma once
-// The shadows of one light, ready for lookups: a dense map, or a tree per view.
+// The shadows of one light, ready for lookups: a dense map, a tree per view, or a stack.
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "app/frame/light_shadow_stats.h"
@@ -10,6 +11,7 @@
 #include "core/isa.h"
 #include "hierarchy/needed_nodes.h"
 #include "hierarchy/shadow_tree.h"
+#include "hierarchy/stack/stack.h"
 #include "raster/exact/casters.h"
 #include "raster/shadow_map.h"
 
@@ -19,14 +21,15 @@ struct LightShadow {
     SceneLight light;  ///< what it was made for; its resolution as found
     Camera camera;     ///< and for this picture, when scope is "frame"
     RenderSettings render;
-    Region seen;                    ///< the picture with its margin
-    Bounds casters;                 ///< caster_box() for the light's direction, when it is parallel
-    ShadowMap map;                  ///< method "map",
-    std::vector<ShadowTree> trees;  ///< "compressed"
-    std::vector<Casters> exact;     ///< or "exact"
+    Region seen;                       ///< the picture with its margin
+    Bounds casters;                    ///< caster_box() for the light's direction, when it is parallel
+    ShadowMap map;                     ///< method "map",
+    std::vector<ShadowTree> trees;     ///< "compressed"
+    std::vector<Casters> exact;        ///< "exact"
+    std::optional<ShadowStack> stack;  ///< or "stack"
     LightShadowStats stats;
 
-    bool empty() const { return map.views.empty() && trees.empty() && exact.empty(); }
+    bool empty() const { return map.views.empty() && trees.empty() && exact.empty() && !stack; }
     const LightView& view(int i) const {
         const auto at = static_cast<std::size_t>(i);
         return !exact.empty() ? exact[at].view : trees.empty() ? map.views[at] : trees[at].view;

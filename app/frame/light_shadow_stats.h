@@ -30,8 +30,9 @@ struct LightShadowStats {
     std::optional<FoundResolution> found;  ///< resolution "auto"
     bool kept = false;                     ///< from the frame before
     bool from_cache = false;               ///< read from a file
-    int samples = 1;                       ///< points of a light with a size that each pixel asks
+    int samples = 1;           ///< points of a light with a size that each pixel asks; maps of a stack
     float penumbra_px = 0;     ///< samples "auto": of the widest penumbra, up to most_auto_samples
+    int anisotropy = 0;        ///< stack: of its octree
     std::int64_t casters = 0;  ///< exact: triangles, in all views together
     MultiresCounts nodes;
     std::uint64_t bytes = 0;  ///< of the map or the serialised trees, top grids included

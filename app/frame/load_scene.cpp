@@ -4,6 +4,8 @@
 
 #include "app/frame/memory.h"
 #include "app/frame/shadow_cache.h"
+#include "app/frame/shadows.h"
+#include "app/frame/stack_shadow.h"
 #include "app/scene/validate.h"
 #include "core/error.h"
 #include "optics/pixel_integrals.h"
@@ -19,9 +21,25 @@ void check_caches(const SceneDocument& document, const FileAccess& access) {
         const std::string& folder = std::get<std::string>(cache->value.data);
         try {
             const auto place = shadow_cache_folder(access, folder);
-            if (access.read) access.read->add(shadow_cache_file(place, text(*light, "id")));
+            const auto method = value_named(shadow_method_words, text(subtable(*light, "shadow"), "method"));
+            if (access.read) access.read->add(shadow_cache_file(place, text(*light, "id"), method));
         } catch (const InputError& error) {
             fail_at(cache->value.place, document.sources, fmt::format("'{}': {}", folder, error.message));
+        }
+    }
+}
+
+/// Refuses stacks of lights that have no plane of focus, in the first frame.
+void check_stacks(const SceneDocument& document, const Scene& scene) {
+    const std::vector<const SceneTable*> lights = subtables(document.root, "light");
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const SceneLight& light = scene.lights[i];
+        if (light.shadow.method != ShadowMethod::stack || !casts_shadows(light)) continue;
+        try {
+            plan_stack(scene.mesh, light);
+        } catch (const InputError& error) {
+            fail_at(place_of(subtable(*lights[i], "shadow"), "method"), document.sources,
+                    fmt::format("{}: {}", error.file, error.message));
         }
     }
 }
@@ -46,6 +64,7 @@ Scene load_scene(const SceneDocument& document, const FileAccess& access) {
     check_memory(estimated(document, [&] { return estimate_memory(document); }), limits, document.sources[0]);
     Scene scene = build_scene(document, access);
     check_caches(document, access);
+    check_stacks(document, scene);
     check_memory(estimated(document, [&] { return estimate_memory(scene); }), limits, document.sources[0]);
     return scene;
 }

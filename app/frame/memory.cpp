@@ -84,13 +84,14 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         const std::int64_t bytes = built_map_bytes(light, wide);
         e.shadow_maps += bytes;
         if (light.shadow.method == ShadowMethod::map) dense += bytes;
-        maps |= light.shadow.method == ShadowMethod::map || light.shadow.method == ShadowMethod::compressed;
+        maps |= light.shadow.method != ShadowMethod::none && light.shadow.method != ShadowMethod::exact;
     }
     // Hours of sun come after the picture, pass after pass as lights with a size do.
     const int suns = suns_of(scene, known.channels);
     e.shadow_maps +=
-        exact_casters_bytes(mesh, lights) +
+        exact_casters_bytes(mesh, lights) + stacks_bytes(mesh, lights) +
         std::max(soft_passes_bytes(mesh, lights, scene.sky, wide), sun_hours_pass_bytes(mesh, suns));
+    e.stacks = stacks_bytes(mesh, lights) + making_stacks_bytes(mesh, lights);
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
     const std::int64_t making =
@@ -125,11 +126,18 @@ MemoryEstimate estimate_memory(const SceneDocument& document) {
 
 void check_memory(const MemoryEstimate& estimate, const Limits& limits, const std::string& scene_name) {
     if (estimate.total() <= limits.memory_mib << 20) return;
+    const std::string stacks =
+        estimate.stacks > estimate.total() / 4
+            ? fmt::format(
+                  "; stacks take {:.0f} of it: lower their samples or resolution, or use method = "
+                  "\"exact\", which keeps no maps",
+                  mib(estimate.stacks))
+            : "";
     throw LimitError(
         fmt::format("{}: needs about {:.0f} MiB (meshes {:.0f}, textures {:.0f}, shadow maps {:.0f}, frame "
-                    "{:.0f}), more than limits.memory_mib = {}",
+                    "{:.0f}), more than limits.memory_mib = {}{}",
                     scene_name, mib(estimate.total()), mib(estimate.meshes), mib(estimate.textures),
-                    mib(estimate.shadow_maps), mib(estimate.frame), limits.memory_mib));
+                    mib(estimate.shadow_maps), mib(estimate.frame), limits.memory_mib, stacks));
 }
 
 }  // namespace obscura

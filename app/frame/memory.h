@@ -20,6 +20,7 @@ namespace obscura {
 /// them.
 struct MemoryEstimate {
     std::int64_t meshes = 0, textures = 0, shadow_maps = 0, frame = 0;
+    std::int64_t stacks = 0;  ///< of shadow_maps and frame, what stacks take and making them
     std::int64_t total() const { return meshes + textures + shadow_maps + frame; }
 };
 

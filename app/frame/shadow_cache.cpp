@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/file_output.h"
 #include "core/hash.h"
+#include "hierarchy/stack/stack_file.h"
 
 namespace obscura {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Changes when the same inputs give other trees.
-constexpr std::uint32_t construction_version = 3;
+constexpr std::uint32_t construction_version = 3, stack_version = 1;
 
 /// Two halves of a key; large arrays enter both by one hash of 64 bits.
 class KeyHasher {
@@ -36,6 +37,26 @@ class KeyHasher {
   private:
     Hasher key_, other_{0x9e3779b97f4a7c15u};
 };
+
+std::string damage_notice(const fs::path& file, const InputError& error) {
+    // Nothing is lost with it: all that stands in it is made from the scene.
+    return fmt::format("{} is damaged ({}); it is made again", file.string(), error.message);
+}
+
+/// Why a sound file is of no use, if it is of none.
+std::string state_notice(const fs::path& file, CacheState state) {
+    switch (state) {
+        case CacheState::usable:
+        case CacheState::absent:
+            break;
+        case CacheState::other_key:
+            return fmt::format("{} was made from another scene, light or settings; it is made again",
+                               file.string());
+        case CacheState::other_version:
+            return fmt::format("{} is of another version of the program; it is made again", file.string());
+    }
+    return "";
+}
 
 /// A folder that is made when it is not there, and taken away again when nothing came to lie in it.
 class MadeFolder {
@@ -72,8 +93,8 @@ fs::path shadow_cache_folder(const FileAccess& access, const std::string& cache)
     return folder;
 }
 
-fs::path shadow_cache_file(const fs::path& folder, const std::string& light) {
-    return folder / (light + ".shadowtree");
+fs::path shadow_cache_file(const fs::path& folder, const std::string& light, ShadowMethod method) {
+    return folder / (light + (method == ShadowMethod::stack ? ".shadowstack" : ".shadowtree"));
 }
 
 TreeFileKey geometry_key(const Mesh& mesh) {
@@ -112,30 +133,39 @@ TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
     return hasher.key();
 }
 
+TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light, const FocusedViews& views) {
+    KeyHasher hasher;
+    hasher.add(stack_version);
+    hasher.add(geometry.high);
+    hasher.add(geometry.low);
+    hasher.add(views.frame);
+    hasher.add_all(views.slices);
+    hasher.add(views.resolution);
+    hasher.add(light.shadow.receivers);
+    return hasher.key();
+}
+
 std::vector<ShadowTree> load_shadow_cache(const fs::path& file, const TreeFileKey& key, std::string& notice) {
-    notice.clear();
-    CachedTrees cached;
     try {
-        cached = read_cached_trees(file, key);
+        CachedTrees cached = read_cached_trees(file, key);
+        notice = state_notice(file, cached.state);
+        return std::move(cached.trees);
     } catch (const InputError& error) {
-        // Nothing is lost with it: all that stands in it is made from the scene.
-        notice = fmt::format("{} is damaged ({}); it is made again", file.string(), error.message);
+        notice = damage_notice(file, error);
         return {};
     }
-    switch (cached.state) {
-        case CacheState::usable:
-            return std::move(cached.trees);
-        case CacheState::absent:
-            break;
-        case CacheState::other_key:
-            notice = fmt::format("{} was made from another scene, light or settings; it is made again",
-                                 file.string());
-            break;
-        case CacheState::other_version:
-            notice = fmt::format("{} is of another version of the program; it is made again", file.string());
-            break;
+}
+
+std::optional<ShadowStack> load_stack_cache(const fs::path& file, const TreeFileKey& key,
+                                            std::string& notice) {
+    try {
+        CachedStack cached = read_cached_stack(file, key);
+        notice = state_notice(file, cached.state);
+        return std::move(cached.stack);
+    } catch (const InputError& error) {
+        notice = damage_notice(file, error);
+        return {};
     }
-    return {};
 }
 
 void check_shadow_cache(const fs::path& file) {
@@ -146,6 +176,11 @@ void check_shadow_cache(const fs::path& file) {
 void save_shadow_cache(const fs::path& file, const std::vector<ShadowTree>& trees, const TreeFileKey& key) {
     const MadeFolder folder(file.parent_path());
     write_tree_file(file, trees, key);
+}
+
+void save_shadow_cache(const fs::path& file, const ShadowStack& stack, const TreeFileKey& key) {
+    const MadeFolder folder(file.parent_path());
+    write_stack_file(file, stack, key);
 }
 
 }  // namespace obscura

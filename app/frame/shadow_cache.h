@@ -1,7 +1,8 @@
 #pragma once
-// [shadow] cache: finished trees of scope "full" in files, one per light.
+// [shadow] cache: finished trees of scope "full" and stacks in files, one per light.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "app/scene/scene.h"
 #include "hierarchy/codes/tree_file.h"
 #include "hierarchy/shadow_tree.h"
+#include "hierarchy/stack/stack.h"
 
 namespace obscura {
 
@@ -17,8 +19,9 @@ namespace obscura {
 /// InputError when it leads elsewhere or when something else than a folder is there.
 std::filesystem::path shadow_cache_folder(const FileAccess& access, const std::string& cache);
 
-/// The file of one light's trees in that folder.
-std::filesystem::path shadow_cache_file(const std::filesystem::path& folder, const std::string& light);
+/// The file of one light's trees, or of its stack, in that folder.
+std::filesystem::path shadow_cache_file(const std::filesystem::path& folder, const std::string& light,
+                                        ShadowMethod method);
 
 /// A hash of everything of a mesh that shadows depend on: positions, triangles, what casts, which components
 /// are closed.
@@ -27,11 +30,16 @@ TreeFileKey geometry_key(const Mesh& mesh);
 /// What a light's trees are made from: geometry, views, and the settings that reach the trees.
 TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
                        const std::vector<LightView>& views);
+/// The same of its stack.
+TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light, const FocusedViews& views);
 
 /// Trees of an earlier run, or none. `notice`: why a file that is there could not be used, empty otherwise.
 /// A file that is broken (cut short, altered, not of this kind) or cannot be read is such a file, too.
 std::vector<ShadowTree> load_shadow_cache(const std::filesystem::path& file, const TreeFileKey& key,
                                           std::string& notice);
+/// The same of a stack.
+std::optional<ShadowStack> load_stack_cache(const std::filesystem::path& file, const TreeFileKey& key,
+                                            std::string& notice);
 
 /// Sees that the folder can be made and `file` written in it, before anything is built for it, and leaves
 /// nothing. Throws OutputError.
@@ -40,5 +48,6 @@ void check_shadow_cache(const std::filesystem::path& file);
 /// Makes the folder if need be and writes the file, or leaves neither. Throws OutputError.
 void save_shadow_cache(const std::filesystem::path& file, const std::vector<ShadowTree>& trees,
                        const TreeFileKey& key);
+void save_shadow_cache(const std::filesystem::path& file, const ShadowStack& stack, const TreeFileKey& key);
 
 }  // namespace obscura

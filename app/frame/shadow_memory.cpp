@@ -6,6 +6,7 @@
 #include "app/frame/exact_tile.h"
 #include "app/frame/needed_texels.h"
 #include "app/frame/soft_light.h"
+#include "app/frame/stack_shadow.h"
 #include "app/frame/sun_hours.h"
 #include "app/frame/surface_light.h"
 #include "core/parallel.h"
@@ -92,6 +93,24 @@ std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> 
     return casters_sorting_bytes(mesh.triangles) + (sends_on(sky) ? surface_light_work_bytes(mesh) : 0);
 }
 
+std::int64_t stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+    std::int64_t bytes = 0;
+    for (const SceneLight& light : lights)
+        if (light.shadow.method == ShadowMethod::stack) bytes += stack_bytes(light, mesh.triangles);
+    return bytes;
+}
+
+std::int64_t making_stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
+    std::int64_t bytes = 0;
+    for (const SceneLight& light : lights) {
+        if (light.shadow.method != ShadowMethod::stack) continue;
+        // Maps are made side by side, by every thread with a setup of its own.
+        const std::int64_t setup = hardware_threads() * construction_bytes(mesh);
+        bytes = std::max(bytes, setup + stack_work_bytes(light, mesh.triangles));
+    }
+    return bytes;
+}
+
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sky) {
     if (!any_exact(lights) && !is_occluded(sky)) return 0;
     const bool soft = is_occluded(sky) || std::any_of(lights.begin(), lights.end(), is_soft);
@@ -132,13 +151,13 @@ int shadow_map_count(const SceneLight& light) {
 
 std::int64_t shadow_map_bytes(const SceneLight& light) {
     if (light.shadow.method == ShadowMethod::exact) return 0;
+    if (light.shadow.method == ShadowMethod::stack) return 0;  // see stacks_bytes()
     if (light.shadow.method == ShadowMethod::map)
         return dense_map_bytes(light.light.kind, light.shadow.resolution);
     return shadow_map_count(light) * expected_nodes(light.shadow) * node_bytes + top_bytes(light);
 }
 
 std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& render) {
-    if (light.shadow.method == ShadowMethod::exact) return 0;
     if (!builds_parts(light.shadow)) return shadow_map_bytes(light);
     return built_nodes(light, render) * node_bytes + top_bytes(light);
 }
@@ -158,7 +177,7 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
     // A word holds sixteen squares, of which a quarter are read; a code is one square. Codes of all lights
     // stay until their trees are made, and one light's words are there twice while they are sorted.
     constexpr std::int64_t word_bytes = sizeof(std::uint64_t) / 4, code_bytes = sizeof(std::uint64_t);
-    std::int64_t lists = 0, most = 0, work = 0;
+    std::int64_t lists = 0, most = 0, work = making_stacks_bytes(mesh, lights);
     for (const SceneLight& light : lights) {
         const ShadowSettings& s = light.shadow;
         if (s.method != ShadowMethod::compressed) continue;

@@ -13,6 +13,9 @@ namespace obscura {
 /// six views share them out; and what ordering them takes meanwhile.
 std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
 std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky);
+/// What stacks of lights with a size take, expected; and making the largest of them, beside them.
+std::int64_t stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
+std::int64_t making_stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights);
 /// Of the tiles that threads have in work.
 std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sky);
 /// What a pass over the tiles holds, of lights with a size and of a sky that surfaces occlude; expected for

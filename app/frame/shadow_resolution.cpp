@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/frame/scene_light.h"
+#include "app/frame/stack_shadow.h"
 #include "core/parallel.h"
 #include "core/vec_arrays.h"
 #include "filters/shadow_lookup.h"
@@ -105,22 +106,41 @@ std::vector<Need> needs_of_tiles(const TileScene& tiles, std::span<const Resolut
     return needs;
 }
 
-FoundResolution resolution_for(const SceneLight& light, const Bounds& casters, const Need& need) {
+FoundResolution resolution_for(const ResolutionQuery& query, const Need& need) {
     FoundResolution found;
     if (!(need.texels < std::numeric_limits<double>::infinity())) return found;
     found.x = need.x;
     found.y = need.y;
-    const auto texel = [&](int n) { return texel_size_m(fitted_shadow_views(light, casters, n)[0]); };
-    const double finest = texel(most_map_resolution);
+    const auto texel = [&](int n) { return texel_size_m(query.views(n)[0]); };
+    const double finest = texel(query.most);
     for (int n = least_map_resolution;; n *= 2) {
         found.resolution = n;
         found.magnification = texel(n) / finest / need.texels;
-        found.capped = found.magnification > light.shadow.max_magnification;
-        if (!found.capped || n == most_map_resolution) return found;
+        found.capped = found.magnification > query.light->shadow.max_magnification;
+        if (!found.capped || n == query.most) return found;
     }
 }
 
 }  // namespace
+
+ResolutionQuery tree_query(const SceneLight& light, const Bounds& casters) {
+    return {&light, most_map_resolution,
+            [&light, casters](int n) { return fitted_shadow_views(light, casters, n); }};
+}
+
+ResolutionQuery stack_query(const Mesh& mesh, const SceneLight& light) {
+    const StackPlan plan = plan_stack(mesh, light);
+    const auto distance = [&](const Light& point) {
+        return is_parallel(point.kind) ? length(normalize(point.direction) - normalize(light.light.direction))
+                                       : length(point.position - light.light.position);
+    };
+    const auto middle =
+        std::min_element(plan.points.begin(), plan.points.end(),
+                         [&](const Light& a, const Light& b) { return distance(a) < distance(b); });
+    const auto k = static_cast<int>(middle - plan.points.begin());
+    return {&light, most_auto_stack_resolution,
+            [&mesh, plan, k](int n) { return std::vector<LightView>{stack_views(mesh, plan, n).view(k)}; }};
+}
 
 double footprint_texels(const CameraRays& rays, const PcfView& view, const SurfaceBlock& s, int at, double x,
                         double y) {
@@ -145,8 +165,7 @@ std::vector<FoundResolution> find_resolutions(std::span<const TileScene> picture
                                               std::span<const ResolutionQuery> queries, const Exec& exec) {
     std::vector<PcfLight> lights;
     for (const ResolutionQuery& q : queries) {
-        const auto views = fitted_shadow_views(*q.light, q.casters, most_map_resolution);
-        lights.push_back(pcf_light(*q.light, views, eye));
+        lights.push_back(pcf_light(*q.light, q.views(q.most), eye));
     }
     std::vector<Need> most(queries.size());
     for (const TileScene& tiles : pictures) {
@@ -158,7 +177,7 @@ std::vector<FoundResolution> find_resolutions(std::span<const TileScene> picture
     }
     std::vector<FoundResolution> found;
     for (std::size_t l = 0; l < queries.size(); ++l)
-        found.push_back(resolution_for(*queries[l].light, queries[l].casters, most[l]));
+        found.push_back(resolution_for(queries[l], most[l]));
     return found;
 }
 

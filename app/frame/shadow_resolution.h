@@ -14,6 +14,7 @@
 // that, since s shrinks with the cosine to nothing, but the light that a shadow could take away does so too;
 // and the result is at most most_map_resolution.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -25,11 +26,18 @@
 
 namespace obscura {
 
-/// A light that asks, and the box of casters along its axes (parallel light only).
+/// A light that asks: its views at a resolution, of which the finest is the most that is found.
 struct ResolutionQuery {
     const SceneLight* light = nullptr;
-    Bounds casters;
+    int most = most_map_resolution;
+    std::function<std::vector<LightView>(int)> views;
 };
+
+/// Of trees; `casters`: their box along the light's axes (parallel light only).
+ResolutionQuery tree_query(const SceneLight& light, const Bounds& casters);
+/// Of a stack: the map of the point nearest to the light's middle stands for all. `light` and `mesh` must
+/// outlive it.
+ResolutionQuery stack_query(const Mesh& mesh, const SceneLight& light);
 
 /// One answer per query, the same for any exec. `pictures`: whole ones, of which every pixel counts; their
 /// lights are not read.

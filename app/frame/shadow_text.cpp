@@ -50,6 +50,19 @@ std::string shadow_text(const LightShadowStats& s) {
                            s.casters, size_text(static_cast<std::int64_t>(s.bytes)), s.kept ? ", kept" : "",
                            s.build.build_s, s.lookup_s);
     }
+    if (s.method == ShadowMethod::stack) {
+        out += fmt::format("a stack of {} maps of {} x {}", s.samples, s.resolution, s.resolution);
+        if (s.found) out += " (" + resolution_text(*s.found) + ")";
+        out += fmt::format(", {}{}\n", size_text(static_cast<std::int64_t>(s.bytes)),
+                           s.kept         ? ", kept"
+                           : s.from_cache ? ", from the cache"
+                                          : "");
+        return out + fmt::format(
+                         "    nodes_full {} nodes_empty {} nodes_leaf {}, anisotropy {}; build {:.3f} s, "
+                         "lookups and shading {:.3f} s (all threads)\n",
+                         s.nodes.full, s.nodes.empty, s.nodes.leaf, s.anisotropy, s.build.build_s,
+                         s.lookup_s);
+    }
     if (s.views > 1) out += fmt::format("{} maps of ", s.views);
     out += fmt::format("{} x {}", s.resolution, s.resolution);
     if (s.found) out += " (" + resolution_text(*s.found) + ")";

@@ -11,6 +11,7 @@
 #include "app/frame/shadow_memory.h"
 #include "app/frame/shadow_resolution.h"
 #include "app/frame/shadow_text.h"
+#include "app/frame/stack_shadow.h"
 #include "core/file_output.h"
 #include "core/stopwatch.h"
 #include "filters/shadow_lookup.h"
@@ -32,7 +33,9 @@ struct Work {
 };
 
 bool wants_auto(const SceneLight& light) {
-    return light.shadow.method == ShadowMethod::compressed && light.shadow.resolution == auto_resolution;
+    const ShadowMethod method = light.shadow.method;
+    return (method == ShadowMethod::compressed || method == ShadowMethod::stack) &&
+           light.shadow.resolution == auto_resolution;
 }
 
 Bounds casters_of(const Scene& scene, const Light& light) {
@@ -46,6 +49,7 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
     stats.resolution = light.shadow.resolution;
     stats.views = shadow_view_count(light.light.kind);
     stats.found = found;
+    if (light.shadow.method == ShadowMethod::stack) stats.views = stats.samples = light.shadow.samples;
     if (light.shadow.method == ShadowMethod::compressed) {
         stats.scope = light.shadow.scope;
         stats.code = light.shadow.code;
@@ -81,7 +85,7 @@ bool build_trees(const Work& work, const std::vector<NeededNodes>* needed, std::
         return build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel);
     }
     const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
-    const auto file = shadow_cache_file(folder, light.light.id);
+    const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
     if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
     const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
     const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
@@ -146,7 +150,9 @@ void plan_shadows(const Work& work) {
         if (has_other_receivers(work.scene)) light.shadow.receivers = Receivers::any;
         if (used == shadows.size()) shadows.emplace_back();
         LightShadow& shadow = shadows[used++];
-        if (found[i] && found[i]->capped && !(shadow.stats.found && shadow.stats.found->capped)) {
+        // Of stacks the most is no more than a default.
+        const bool told = light.shadow.method != ShadowMethod::stack;
+        if (told && found[i] && found[i]->capped && !(shadow.stats.found && shadow.stats.found->capped)) {
             work.stats.notices.push_back(capped_text(light, *found[i]));
         }
         const LightShadowStats fresh = fresh_stats(light, found[i]);
@@ -161,6 +167,7 @@ void plan_shadows(const Work& work) {
         } else {
             shadow.trees.clear();
             shadow.exact.clear();
+            shadow.stack.reset();
             shadow.stats = fresh;
             if (light.shadow.method == ShadowMethod::map) {
                 shadow.map.views.clear();  // not valid until it is built; its memory is used again
@@ -200,6 +207,9 @@ bool build_shadow(const Work& work, const std::vector<std::optional<std::vector<
                   std::size_t& next_needed, std::int64_t most_bytes, LightShadow& shadow) {
     if (shadow.light.shadow.method == ShadowMethod::map) return build_map(work, shadow);
     if (shadow.light.shadow.method == ShadowMethod::exact) return build_exact(work, shadow);
+    if (shadow.light.shadow.method == ShadowMethod::stack)
+        return make_light_stack(work.scene.mesh, work.exec, most_bytes, work.cache, work.stats.notices,
+                                shadow, work.cancel);
     if (shadow.light.shadow.scope == ShadowScope::full) return build_trees(work, nullptr, most_bytes, shadow);
     const auto& of_light = needed[next_needed++];
     if (!of_light) {
@@ -242,6 +252,10 @@ void give_to_tiles(const Work& work, TileScene& tiles) {
         const LightShadow& shadow = work.cache.shadows[next++];
         if (shadow.light.shadow.method == ShadowMethod::exact) {
             light.exact = exact_light(shadow.light.light, shadow.exact, *tiles.mesh, tiles.rays);
+            continue;
+        }
+        if (shadow.light.shadow.method == ShadowMethod::stack) {
+            light.stack = stack_light(shadow, work.scene.camera.eye);
             continue;
         }
         if (shadow.light.shadow.method == ShadowMethod::map) {
@@ -340,8 +354,12 @@ std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
                                                              const Exec& exec) {
     std::vector<ResolutionQuery> queries;
     for (const SceneLight& light : scene.lights) {
-        if (casts_shadows(light) && wants_auto(light))
-            queries.push_back({&light, casters_of(scene, light.light)});
+        if (!casts_shadows(light) || !wants_auto(light)) continue;
+        if (light.shadow.method == ShadowMethod::stack) {
+            queries.push_back(stack_query(scene.mesh, light));
+        } else {
+            queries.push_back(tree_query(light, casters_of(scene, light.light)));
+        }
     }
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     if (queries.empty()) return found;

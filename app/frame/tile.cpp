@@ -196,6 +196,13 @@ void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool 
     if (shadow) std::fill_n(work.shadow_sum, block_samples, 0.0f);
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         const TileLight& light = scene.lights[l];
+        if (light.stack) {
+            const Stopwatch watch;
+            shade_stack(*light.stack, work.surface, isa, work.visibility, shadow ? work.shadow_sum : nullptr,
+                        work.shade);
+            if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
+            continue;
+        }
         if (!light.pcf) std::fill_n(work.visibility, block_samples, 1.0f);
         if (light.pcf) {
             const Stopwatch watch;

@@ -11,6 +11,7 @@
 
 #include "app/frame/frame.h"
 #include "app/frame/soft_light.h"
+#include "app/frame/stack_tile.h"
 #include "app/scene/scene.h"
 #include "core/sky/sky_model.h"
 #include "filters/pcf.h"
@@ -32,11 +33,12 @@ struct TileLight {
     // both: a tree of what stands still, the samples' own of what moves. With neither, nothing casts any.
     std::optional<PcfLight> pcf;
     std::optional<ExactLight> exact;
-    std::size_t scene_light = 0;  ///< index into Scene::lights
-    std::size_t shadow = 0;       ///< and among those with shadows, when it casts some
-    double solid_angle_sr = 0;    ///< of a part of the sky
+    std::optional<StackLight> stack;  ///< of a light with a size: alone, in place of `shade`, too
+    std::size_t scene_light = 0;      ///< index into Scene::lights
+    std::size_t shadow = 0;           ///< and among those with shadows, when it casts some
+    double solid_angle_sr = 0;        ///< of a part of the sky
 
-    bool casts_shadows() const { return pcf || exact; }
+    bool casts_shadows() const { return pcf || exact || stack; }
 };
 
 /// Everything the tiles of one frame have in common. Borrows; read only. The picture is the view; the tiles

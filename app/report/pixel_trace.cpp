@@ -54,6 +54,7 @@ class PixelStory {
     void tell_barycentrics(std::uint32_t triangle, Vec3f position);
     void tell_material(int at);
     void tell_exact(const TileLight& light, int at);
+    void tell_stack(const TileLight& light, int at);
     void tell_light(const TileLight& light, std::size_t shadow, int at);
     void tell_lookup(const TileLight& light, std::size_t shadow, int at);
     bool is(const std::uint32_t* masks, int at) const { return (masks[at / 16] >> (at & 15) & 1u) != 0; }
@@ -192,6 +193,25 @@ void PixelStory::tell_exact(const TileLight& light, int at) {
     say("      visibility 0");
 }
 
+/// How many points of a light with a size reach the sample, and what its parts add.
+void PixelStory::tell_stack(const TileLight& light, int at) {
+    const StackLight& stack = *light.stack;
+    std::vector<std::uint16_t> lit(stack.parts.size() * block_samples);
+    stack_block(stack, work_->surface, Isa::ref, lit.data());
+    std::string parts;
+    int all = 0;
+    for (std::size_t part = 0; part < stack.parts.size(); ++part) {
+        const int count = lit[part * block_samples + static_cast<std::size_t>(at)];
+        all += count;
+        parts += fmt::format("{}{}", part == 0 ? "" : " ", count);
+    }
+    say("      stack: {} of {} points of the light reach it; of its {} parts {}", all, stack.lookup.slices,
+        stack.parts.size(), parts);
+    const Vec3f before = radiance(at);
+    shade_stack(stack, work_->surface, Isa::ref, work_->visibility, nullptr, work_->shade);
+    say("      adds {}", text_of(radiance(at) - before));
+}
+
 void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) {
     const Light& source = scene_.lights[light.scene_light].light;
     const ref::LightTerms terms = ref::light_terms(work_->surface, light.shade, work_->shade, at);
@@ -203,6 +223,7 @@ void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) 
         ref::pcf_block(work_->surface, *light.pcf, work_->visibility);
     }
     if (light.exact) tell_exact(light, at);
+    if (light.stack) return tell_stack(light, at);
     say("      per irradiance: diffuse {}, specular {}, through {}", text_of(terms.diffuse),
         text_of(terms.specular), text_of(terms.through));
     const Vec3f before = radiance(at);

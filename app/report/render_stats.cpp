@@ -79,6 +79,11 @@ void put_light(JsonWriter& json, const LightShadowStats& s) {
     if (s.found) {
         json.member("magnification", s.found->magnification).member("capped", s.found->capped);
     }
+    if (s.method == ShadowMethod::stack) {
+        json.member("from_cache", s.from_cache).member("anisotropy", s.anisotropy);
+        json.member("nodes_full", count(s.nodes.full)).member("nodes_empty", count(s.nodes.empty));
+        json.member("nodes_leaf", count(s.nodes.leaf));
+    }
     if (s.method == ShadowMethod::compressed) {
         const BuildStats& b = s.build;
         json.member("code", name_of(s.code));

@@ -9,8 +9,9 @@ namespace obscura {
 KeySpec shadow_cache_key() {
     return file_key(
                "cache",
-               "Compressed, scope \"full\": folder, relative to the scene file, in which finished maps are "
-               "kept, one file LIGHT.shadowtree per light. It is made when it is not there.")
+               "Compressed with scope \"full\", and stack: folder, relative to the scene file, in which "
+               "finished maps are kept, one file LIGHT.shadowtree or LIGHT.shadowstack per light. It is made "
+               "when it is not there.")
         .as_folder();
 }
 
@@ -24,6 +25,8 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "none: the light passes through everything. exact: what casts shadows is rasterized onto the "
             "picture's own samples; no texels, no filter, edges as sharp as the samples. map: a dense map. "
             "compressed: a tree of depth intervals, which gives a map's shadows at resolutions far beyond. "
+            "stack: for a light with a size, an octree of the maps of many of its points, built once for all "
+            "frames in which the light stands still. "
             "When not given: compressed where a key that only maps have is given, or where the light "
             "has no keyframes and there are 50 frames or more, which is when a tree pays; else exact. "
             "`obscura check` tells which, and why."),
@@ -31,9 +34,10 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             &ShadowSettings::resolution, "auto", auto_resolution,
             integer_key(
                 "resolution",
-                "Maps: texels per side, at most 16384 with method \"map\", whose default is 4096; "
-                "points use six maps. \"auto\", the default otherwise: the smallest that the picture "
-                "needs. The map of a parallel light covers the whole scene; `obscura check` tells the size "
+                "Maps: texels per side, at most 16384 with method \"map\", whose default is 4096, and 65536 "
+                "with \"stack\"; points use six maps. \"auto\", the default otherwise: the smallest that the "
+                "picture needs, at most 2048 with \"stack\". The map of a parallel light covers the whole "
+                "scene; `obscura check` tells the size "
                 "of a texel.")
                 .one_of({16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192, 16384, 32768, 65536, 131072,
                          262144, 524288, 1048576})),
@@ -54,7 +58,8 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 "samples",
                 "Exact, of a light with a size: how many points of it each pixel asks, shared out among "
                 "the pixel's own samples; 1 is its middle, whose shadow is hard. \"auto\", the default: "
-                "as many as the widest penumbra in the picture is pixels wide, 256 at most.")
+                "as many as the widest penumbra in the picture is pixels wide, 256 at most. Stack: how many "
+                "maps it has, all of which each sample asks; at least 4, 64 when not given.")
                 .one_of({1, 4, 16, 64, 256, 1024})),
         word_row_if_given(&ShadowSettings::receivers, receivers_words, "receivers",
                           "As in [render], whose value is the default."),
@@ -70,10 +75,10 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "squares are smaller, keeps more of it. \"pcf\" when not given."),
         key_row_if_given(
             &ShadowSettings::max_magnification,
-            number_key(
-                "max_magnification",
-                "Compressed, resolution \"auto\": how many pixels the side of a texel may span at most, "
-                "across its shorter direction, anywhere in the picture. 1 when not given.")
+            number_key("max_magnification",
+                       "Compressed and stack, resolution \"auto\": how many pixels the side of a texel may "
+                       "span at most, "
+                       "across its shorter direction, anywhere in the picture. 1 when not given.")
                 .in({0.01, 100})),
         word_row_if_given(
             &ShadowSettings::code, shadow_code_words.all, "code",

@@ -19,6 +19,9 @@ constexpr const char* compressed_keys[] = {"scope",      "filter", "max_magnific
                                            "top_levels", "cache"};
 constexpr const char* exact_keys[] = {"samples"};
 constexpr const char* map_keys[] = {"resolution", "filter_px", "normal_offset_texels"};
+/// What stacks have neither of compressed maps nor of maps.
+constexpr const char* tree_keys[] = {"scope", "filter", "code", "layout", "top_levels"};
+constexpr const char* filter_keys[] = {"filter_px", "normal_offset_texels"};
 constexpr std::int64_t dense_default = 4096, most_dense_filter_px = 5;
 
 void set_default(SceneTable& table, const char* key, SceneValue value) {
@@ -97,6 +100,48 @@ void complete_dense(SceneTable& settings, const Sources& sources) {
     }
 }
 
+/// "auto", and what it may go by.
+void complete_resolution(SceneTable& settings, const Sources& sources) {
+    static const ShadowSettings d;
+    set_default(settings, "resolution", value_of("auto"));
+    const bool automatic = std::holds_alternative<std::string>(settings.find("resolution")->value.data);
+    if (automatic) {
+        set_default(settings, "max_magnification", value_of(d.max_magnification));
+    } else if (settings.has("max_magnification")) {
+        fail_at(settings.find("max_magnification")->place, sources,
+                "'max_magnification' needs resolution = \"auto\"");
+    }
+}
+
+void complete_stack(SceneTable& settings, const SceneTable& light, const SceneEntry* cache,
+                    const Sources& sources) {
+    refuse_keys(settings, tree_keys, "method = \"compressed\"", sources);
+    refuse_keys(settings, filter_keys, "method = \"map\" or \"compressed\"", sources);
+    if (!is_sized(light)) {
+        fail_at(settings.find("method")->value.place, sources,
+                fmt::format("method = \"stack\" needs a light with a size, which light '{}' has not",
+                            text(light, "id")));
+    }
+    set_default(settings, "samples", value_of(std::int64_t{stack_samples}));
+    const SceneEntry& samples = *settings.find("samples");
+    const auto* count = std::get_if<std::int64_t>(&samples.value.data);
+    if (count == nullptr)
+        fail_at(samples.value.place, sources, "'samples' = \"auto\" needs method = \"exact\"");
+    if (*count < 4) {
+        fail_at(samples.value.place, sources,
+                fmt::format("'samples' must be at least 4 with method = \"stack\", not {}", *count));
+    }
+    complete_resolution(settings, sources);
+    const SceneEntry& resolution = *settings.find("resolution");
+    const auto* texels = std::get_if<std::int64_t>(&resolution.value.data);
+    if (texels != nullptr && *texels > most_stack_resolution) {
+        fail_at(
+            resolution.value.place, sources,
+            fmt::format("'resolution' must be at most {} with method = \"stack\"", most_stack_resolution));
+    }
+    if (cache != nullptr) set_default(settings, "cache", cache->value);
+}
+
 void complete_compressed(SceneTable& settings, const SceneEntry* cache, const Sources& sources) {
     static const ShadowSettings d;
     const bool own_cache = settings.has("cache");
@@ -113,16 +158,9 @@ void complete_compressed(SceneTable& settings, const SceneEntry* cache, const So
     }
     // A cache for all lights is none for those that say scope = "frame".
     if (frame) settings.erase("cache");
-    set_default(settings, "resolution", value_of("auto"));
     set_default(settings, "scope", value_of(settings.has("cache") || whole ? "full" : "frame"));
     set_default(settings, "filter", value_of("pcf"));
-    const bool automatic = std::holds_alternative<std::string>(settings.find("resolution")->value.data);
-    if (automatic) {
-        set_default(settings, "max_magnification", value_of(d.max_magnification));
-    } else if (settings.has("max_magnification")) {
-        fail_at(settings.find("max_magnification")->place, sources,
-                "'max_magnification' needs resolution = \"auto\"");
-    }
+    complete_resolution(settings, sources);
     set_default(settings, "code", value_of("mh"));
     if (text(settings, "code") == "mh") {
         set_default(settings, "layout", value_of("words24"));
@@ -186,6 +224,11 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
         }
         set_default(settings, "receivers", value_of(text(subtable(root, "render"), "receivers").c_str()));
         const ShadowMethod method = value_named(shadow_method_words, text(settings, "method"));
+        if (method == ShadowMethod::stack) {
+            complete_stack(settings, light, cache, sources);
+            order_keys(settings);
+            continue;
+        }
         if (method != ShadowMethod::compressed)
             refuse_keys(settings, compressed_keys, "method = \"compressed\"", sources);
         if (method == ShadowMethod::exact) {

@@ -10,8 +10,9 @@
 namespace obscura {
 
 /// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals. `exact`:
-/// of the picture's own samples, without a map (raster/exact).
-enum class ShadowMethod { none, map, compressed, exact };
+/// of the picture's own samples, without a map (raster/exact). `stack`: an octree of the maps of many points
+/// of a light with a size (hierarchy/stack).
+enum class ShadowMethod { none, map, compressed, exact, stack };
 /// Which part of a compressed map is built: what the frame's lookups ask for, or everything.
 enum class ShadowScope { frame, full };
 /// `pcf`: a kernel of texels. `hierarchical`: of the squares that are as large as the pixel on the map.
@@ -20,7 +21,8 @@ enum class ShadowFilter { pcf, hierarchical };
 inline constexpr Word<ShadowMethod> shadow_method_words[] = {{"none", ShadowMethod::none},
                                                              {"map", ShadowMethod::map},
                                                              {"compressed", ShadowMethod::compressed},
-                                                             {"exact", ShadowMethod::exact}};
+                                                             {"exact", ShadowMethod::exact},
+                                                             {"stack", ShadowMethod::stack}};
 inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope::frame},
                                                            {"full", ShadowScope::full}};
 inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},
@@ -55,25 +57,33 @@ constexpr int auto_samples = 0, most_auto_samples = 256;
 
 constexpr int auto_resolution = 0;
 constexpr int least_map_resolution = 16, most_dense_resolution = 16384, most_map_resolution = 1 << 20;
+/// Of stacks: what keys may ask for, and what "auto" finds at most, since all of a stack is built.
+constexpr int most_stack_resolution = 1 << 16, most_auto_stack_resolution = 1 << 11;
+/// Maps of a stack, when nothing is said.
+constexpr int stack_samples = 64;
+/// From how many frames on a stack pays, of a light that stands somewhere: each point of it has casters of
+/// its own, which exact shadows put in order for every frame, and making its map takes about as long.
+/// Parallel light, whose points share them, is no slower without (app/frame/README.md has the measurements).
+constexpr int stack_break_even_frames = 2;
 
 struct ShadowSettings {
     /// Scene files that name none get one from the rules; see tree_break_even_frames.
     ShadowMethod method = ShadowMethod::compressed;
-    /// Texels per side, a power of two from least_map_resolution to most_dense_resolution (map) or
-    /// most_map_resolution (compressed); or, compressed only, auto_resolution.
+    /// Texels per side, a power of two from least_map_resolution to most_dense_resolution (map),
+    /// most_map_resolution (compressed) or most_stack_resolution; or, but for maps, auto_resolution.
     int resolution = auto_resolution;
     int filter_px = 3;  ///< PCF kernel side in texels, odd: to 5 (map) or 15 (compressed)
     Receivers receivers = Receivers::static_only;
     double normal_offset_texels = 0;  ///< of receivers on open components only
-    int samples = auto_samples;       ///< exact: points of a light with a size, 1 or a power of four
-    // Compressed only.
+    int samples = auto_samples;       ///< exact, stack: points of a light with a size, 1 or a power of four
+    // Compressed; of these stacks have max_magnification and cache.
     ShadowScope scope = ShadowScope::frame;
     ShadowFilter filter = ShadowFilter::pcf;
     double max_magnification = 1.0;  ///< auto: pixels that a texel spans at most, the shorter way
     ShadowCode code = ShadowCode::mh;
     TreeLayout layout = TreeLayout::words24;  ///< mh only
     int top_levels = 6;                       ///< first levels that are kept as a table, in [0, 10]
-    std::string cache;                        ///< folder for finished maps of scope full; empty: none
+    std::string cache;                        ///< folder for finished maps of scope full, and stacks; empty: none
     friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
 };
 

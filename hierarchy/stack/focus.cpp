@@ -212,7 +212,7 @@ FocusedViews focused_views(const Mesh& mesh, const LightSamples& samples, const 
     return views;
 }
 
-Vec3d median_plane_point(const Mesh& mesh, Vec3d normal) {
+Vec3d median_plane_point(const Mesh& mesh, Vec3d normal, double below) {
     const Vec3d n = normalize(normal);
     std::vector<std::pair<double, double>> areas;  // height, area
     double all = 0;
@@ -220,15 +220,16 @@ Vec3d median_plane_point(const Mesh& mesh, Vec3d normal) {
         const Vec3d p = to_double(mesh.positions[t.v[0]]), q = to_double(mesh.positions[t.v[1]]),
                     r = to_double(mesh.positions[t.v[2]]);
         const double area = 0.5 * dot(cross(q - p, r - p), n);
-        if (!(area > 0)) continue;
-        areas.emplace_back(dot(n, p + q + r) / 3, area);
+        const double height = dot(n, p + q + r) / 3;
+        if (!(area > 0) || !(height < below)) continue;
+        areas.emplace_back(height, area);
         all += area;
     }
     std::sort(areas.begin(), areas.end());
-    double below = 0;
+    double lower = 0;
     for (const auto& [height, area] : areas) {
-        below += area;
-        if (below >= 0.5 * all) return n * height;
+        lower += area;
+        if (lower >= 0.5 * all) return n * height;
     }
     return {0, 0, 0};
 }

@@ -46,8 +46,9 @@ bool can_focus(const LightSamples& samples, const FocusParams& params);
 FocusedViews focused_views(const Mesh& mesh, const LightSamples& samples, const FocusParams& params);
 
 /// The plane with this normal that has as much of what receives below as above it: through the median height
-/// of the mesh's area, from the triangles that face the normal's side.
-Vec3d median_plane_point(const Mesh& mesh, Vec3d normal);
+/// of the mesh's area, from the triangles that face the normal's side and are lower than `below`, metres
+/// along the unit normal from the origin.
+Vec3d median_plane_point(const Mesh& mesh, Vec3d normal, double below = 1e300);
 
 /// The longest way, in texels, that anything of the mesh below the near plane moves from one map to the next.
 double parallax_texels(const Mesh& mesh, const FocusedViews& views);

@@ -1,8 +1,10 @@
 #include "hierarchy/stack/light_samples.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "core/error.h"
 #include "core/num.h"
@@ -30,6 +32,27 @@ void hilbert_cell(int order, std::uint32_t d, std::uint32_t& x, std::uint32_t& y
         x += side * right;
         y += side * up;
     }
+}
+
+/// The other way round: which cell of the curve (x, y) is.
+std::uint64_t hilbert_number(int order, std::uint32_t x, std::uint32_t y) {
+    std::uint64_t d = 0;
+    for (std::uint32_t side = (1u << order) / 2; side > 0; side /= 2) {
+        const std::uint32_t right = (x & side) != 0 ? 1 : 0, up = (y & side) != 0 ? 1 : 0;
+        d = 4 * d + ((3 * right) ^ up);
+        x &= side - 1;
+        y &= side - 1;
+        if (up == 0) {
+            if (right == 1) {
+                x = side - 1 - x;
+                y = side - 1 - y;
+            }
+            const std::uint32_t t = x;
+            x = y;
+            y = t;
+        }
+    }
+    return d;
 }
 
 /// From the unit square to the unit disc.
@@ -62,6 +85,29 @@ std::vector<Vec2d> hilbert_samples(int count) {
         samples.push_back({(square + (x + 0.5) / side) / squares, (y + 0.5) / side});
     }
     return samples;
+}
+
+std::vector<std::size_t> hilbert_order(const std::vector<Vec2d>& places) {
+    constexpr int order = 16;
+    Vec2d low{1e300, 1e300}, high{-1e300, -1e300};
+    for (const Vec2d& p : places) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    const double extent = std::max({high.x - low.x, high.y - low.y, 1e-300});
+    const auto cell = [&](double offset) {
+        return static_cast<std::uint32_t>(std::clamp(offset / extent, 0.0, 1.0) * ((1 << order) - 1));
+    };
+    std::vector<std::pair<std::uint64_t, std::size_t>> numbered;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Vec2d d{places[i].x - low.x, places[i].y - low.y};
+        numbered.emplace_back(hilbert_number(order, cell(d.x), cell(d.y)), i);
+    }
+    std::sort(numbered.begin(), numbered.end());
+    std::vector<std::size_t> sorted;
+    for (const auto& [number, i] : numbered)
+        sorted.push_back(i);
+    return sorted;
 }
 
 LightSamples parallelogram_samples(Vec3d centre, Vec3d edge_u, Vec3d edge_v, int count) {

@@ -3,6 +3,7 @@
 // J. Kautz, S. Mueller, "Interactive Illumination with Coherent Shadow Maps", EGSR 2007, so that neighbours
 // in a stack see nearly the same.
 
+#include <cstddef>
 #include <vector>
 
 #include "core/vec.h"
@@ -18,6 +19,10 @@ struct LightSamples {
 /// `count` (a power of two) cells of the unit square in the order of a Hilbert curve, their middles: 2^i x
 /// 2^i cells, or two such squares side by side. Every run of 4^j of them, aligned, is a square of cells.
 std::vector<Vec2d> hilbert_samples(int count);
+
+/// Which of `places` comes k-th along a Hilbert curve over the square that holds them: for samples that were
+/// made in another order. Places in one of its 2^16 x 2^16 cells keep their order.
+std::vector<std::size_t> hilbert_order(const std::vector<Vec2d>& places);
 
 /// Of the parallelogram centre + (u - 1/2) edge_u + (v - 1/2) edge_v.
 LightSamples parallelogram_samples(Vec3d centre, Vec3d edge_u, Vec3d edge_v, int count);

@@ -121,8 +121,7 @@ OBSCURA_INLINE Seen16 see(const Receivers16& p, const Range16& range, std::int32
     const F32 inv[2] = {one / max(d[1], least), one / max(d[0], least)};
 
     const F32 g0 = p.h * r[0], g1 = p.h * r[1];
-    const F32 near_z = min(p.top - p.per_m * max(g0, g1), one),
-              far_z = min(p.top - p.per_m * min(g0, g1), one);
+    const F32 near_z = p.top - p.per_m * max(g0, g1), far_z = p.top - p.per_m * min(g0, g1);
     F32 slope_x[2], slope_y[2], error[2];
     for (int k = 0; k < 2; ++k) {
         slope_x[k] = (abs(p.steep_a) * r[k]) * inv[k];
@@ -130,8 +129,8 @@ OBSCURA_INLINE Seen16 see(const Receivers16& p, const Range16& range, std::int32
         error[k] = (((p.off * (r[k] * r[k])) * inv[k]) + splat(stack_snap) * (slope_x[k] + slope_y[k])) +
                    splat(stack_depth_error);
     }
-    s.nearest = (near_z - error[1]) - (slope_x[1] * half + slope_y[1] * half);
-    s.deepest = far_z - error[0];
+    s.nearest = min((near_z - error[1]) - (slope_x[1] * half + slope_y[1] * half), one);
+    s.deepest = min(far_z - error[0], one);
     return s;
 }
 
@@ -142,13 +141,13 @@ OBSCURA_INLINE F32 compared_depth(const Receivers16& p, const Range16& map, cons
     const F32 d = (p.nh - p.na * (map.sigma_x[0] + map.tau[0] * s.x[0])) -
                   p.nb * (map.sigma_y[0] + map.tau[0] * s.y[0]);
     const F32 inv = one / max(d, splat(stack_least_cosine));
-    const F32 z = min(p.top - p.per_m * (p.h * r), one);
+    const F32 z = p.top - p.per_m * (p.h * r);
     const F32 slope_x = (p.steep_a * r) * inv, slope_y = (p.steep_b * r) * inv;
     const F32 error = (((p.off * (r * r)) * inv) + splat(stack_snap) * (abs(slope_x) + abs(slope_y))) +
                       splat(stack_depth_error);
     const F32 to_middle_x = (to_f32(s.ix[0]) + half) - s.x[0],
               to_middle_y = (to_f32(s.iy[0]) + half) - s.y[0];
-    return (z - error) + min(slope_x * to_middle_x + slope_y * to_middle_y, splat(0.0f));
+    return min((z - error) + min(slope_x * to_middle_x + slope_y * to_middle_y, splat(0.0f)), one);
 }
 
 // --- descents ------------------------------------------------------------------------------------------

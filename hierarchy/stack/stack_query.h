@@ -7,7 +7,8 @@
 //   lit    where the point lies before the near plane, or outside of the map;
 //   else dark where D <= 0: the face looks away;
 //   else lit where the depth of the receiver's own plane at the middle of the texel, but not more than the
-//   receiver's, less what rounding may have moved it, is at most what the octree stores for that texel.
+//   receiver's, less what rounding may have moved it, nor than 1, where there is only background, is at most
+//   what the octree stores for that texel.
 //
 // lit_of_subset: the paper's way (Scandolo, Bauszat, Eisemann 2016, section 4): one lookup in each of
 // `samples` equal shares of the maps, where the point's pattern says.
@@ -62,11 +63,17 @@ struct StackWork {
     std::uint64_t lookups = 0;  ///< runs of maps (or single maps) that were asked, a point at a time
 };
 
-/// lit[i] = how many samples reach point i: of all maps, or of `samples` (in [1, slices]) of them. Adds to
+constexpr std::int32_t most_stack_parts = 64;
+
+/// lit[i] = how many samples reach point i: of all maps, or of `samples` (in [1, slices]) of them.
+/// lit_of_parts: of each of `parts` equal runs of maps, lit[part * points.count + i], at the same steps; a
+/// power of two, at most most_stack_parts and 2^slice_levels, as many as which are a map each. All add to
 /// `work`.
 #define OBSCURA_STACK_QUERIES                                                                                \
     void lit_samples(const StackLookup& stack, const StackPoints& points, std::uint16_t* lit,                \
                      StackWork& work) noexcept;                                                              \
+    void lit_of_parts(const StackLookup& stack, const StackPoints& points, std::int32_t parts,               \
+                      std::uint16_t* lit, StackWork& work) noexcept;                                         \
     void lit_of_subset(const StackLookup& stack, const StackPoints& points, int samples, std::uint16_t* lit, \
                        StackWork& work) noexcept;
 namespace ref {

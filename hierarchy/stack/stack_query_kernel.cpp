@@ -21,14 +21,40 @@ OBSCURA_INLINE std::uint64_t count_of(const Mask& m) {
 /// Halves wait on top of each other: one more for each time all maps can be halved.
 constexpr int most_tasks = 20;
 
-/// How many of all maps' samples reach each of sixteen points.
-template <bool wide>
-OBSCURA_INLINE I32 lit_of_all(const StackLookup& stack, const std::uint8_t* base, const Receivers16& p,
-                              StackWork& work) {
+/// Where lit samples are counted: all together,
+struct OneTally {
+    I32 lit = splat(std::int32_t{0});
+    OBSCURA_INLINE void add(const Mask& which, std::int32_t, std::int32_t maps) {
+        lit = lit + select(which, splat(maps), splat(std::int32_t{0}));
+    }
+};
+
+/// or those of each run of 2^exponent maps.
+struct PartTally {
+    std::int32_t exponent;
+    I32 lit[most_stack_parts];
+    OBSCURA_INLINE PartTally(std::int32_t part_exponent, std::int32_t parts) : exponent(part_exponent) {
+        for (std::int32_t part = 0; part < parts; ++part)
+            lit[part] = splat(std::int32_t{0});
+    }
+    OBSCURA_INLINE void add(const Mask& which, std::int32_t first, std::int32_t maps) {
+        while (maps > 0) {
+            const std::int32_t part = first >> exponent, end = (part + 1) << exponent,
+                               here = first + maps < end ? maps : end - first;
+            lit[part] = lit[part] + select(which, splat(here), splat(std::int32_t{0}));
+            first += here;
+            maps -= here;
+        }
+    }
+};
+
+/// Which of all maps' samples reach each of sixteen points.
+template <bool wide, class Tally>
+OBSCURA_INLINE void lit_of_all(const StackLookup& stack, const std::uint8_t* base, const Receivers16& p,
+                               Tally& lit, StackWork& work) {
     const std::int32_t size = std::int32_t{1} << stack.code.shape.map_levels,
                        leaves = std::int32_t{1} << stack.code.shape.slice_levels;
-    const I32 nothing = splat(std::int32_t{0});
-    I32 lit = select(p.before_near, splat(stack.slices), nothing);
+    lit.add(p.before_near, 0, stack.slices);
     Task tasks[most_tasks];
     int open = 1;
     tasks[0] = {1, stack.code.shape.slice_levels, p.valid & ~p.before_near, at_root<wide>(stack.code)};
@@ -43,8 +69,7 @@ OBSCURA_INLINE I32 lit_of_all(const StackLookup& stack, const std::uint8_t* base
 
         const Range16 range = range_of(stack.ranges[task.run]);
         const Seen16 s = see(p, range, size);
-        const I32 all = splat(maps);
-        lit = lit + select(task.asks & s.outside, all, nothing);
+        lit.add(task.asks & s.outside, first, maps);
         Mask asks = task.asks & ~s.outside & ~(s.inside & s.away);
         if (none(asks)) continue;
         Places16 at = task.at;
@@ -55,18 +80,17 @@ OBSCURA_INLINE I32 lit_of_all(const StackLookup& stack, const std::uint8_t* base
             const F32 value = values(base, at);
             if (task.exponent == 0) {
                 const Mask is_lit = answered & less_equal(compared_depth(p, range, s), value);
-                lit = lit + select(is_lit, all, nothing);
+                lit.add(is_lit, first, maps);
                 continue;
             }
             const Mask is_lit = answered & less_equal(s.deepest, value), is_dark = less(value, s.nearest);
-            lit = lit + select(is_lit, all, nothing);
+            lit.add(is_lit, first, maps);
             asks = asks & ~(answered & (is_lit | is_dark));
         }
         if (none(asks)) continue;
         tasks[open++] = {2 * task.run + 1, task.exponent - 1, asks, at};
         tasks[open++] = {2 * task.run, task.exponent - 1, asks, at};
     }
-    return lit;
 }
 
 OBSCURA_INLINE F32 gather_range(const StackLookup& stack, const I32& run, int number) {
@@ -117,7 +141,27 @@ void all_points(const StackLookup& stack, const StackPoints& points, std::uint16
     const std::uint8_t* base = biased_words(stack.code);
     for (std::size_t first = 0; first < points.count; first += 16) {
         const Receivers16 p = receivers_at(stack, points, first);
-        store_counts(lit_of_all<wide>(stack, base, p, work), first, points.count, lit);
+        OneTally all;
+        lit_of_all<wide>(stack, base, p, all, work);
+        store_counts(all.lit, first, points.count, lit);
+    }
+}
+
+template <bool wide>
+void all_points_by_parts(const StackLookup& stack, const StackPoints& points, std::int32_t parts,
+                         std::uint16_t* lit, StackWork& work) {
+    const std::uint8_t* base = biased_words(stack.code);
+    std::int32_t exponent = stack.code.shape.slice_levels;
+    for (std::int32_t of = parts; of > 1; of /= 2)
+        --exponent;
+    for (std::size_t first = 0; first < points.count; first += 16) {
+        const Receivers16 p = receivers_at(stack, points, first);
+        PartTally tally(exponent, parts);
+        lit_of_all<wide>(stack, base, p, tally, work);
+        for (std::int32_t part = 0; part < parts; ++part) {
+            store_counts(tally.lit[part], first, points.count,
+                         lit + static_cast<std::size_t>(part) * points.count);
+        }
     }
 }
 
@@ -142,6 +186,15 @@ void lit_samples(const StackLookup& stack, const StackPoints& points, std::uint1
         all_points<true>(stack, points, lit, work);
     } else {
         all_points<false>(stack, points, lit, work);
+    }
+}
+
+void lit_of_parts(const StackLookup& stack, const StackPoints& points, std::int32_t parts, std::uint16_t* lit,
+                  StackWork& work) noexcept {
+    if (stack.code.layout == StackLayout::wide) {
+        all_points_by_parts<true>(stack, points, parts, lit, work);
+    } else {
+        all_points_by_parts<false>(stack, points, parts, lit, work);
     }
 }
 

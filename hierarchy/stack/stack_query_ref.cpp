@@ -98,8 +98,7 @@ Seen see(const Receiver& p, const SliceRange& range, std::int32_t size) {
                           1.0f / lane_max(d[0], stack_least_cosine)};
 
     const float g0 = p.h * r[0], g1 = p.h * r[1];
-    const float near_z = lane_min(p.top - p.per_m * lane_max(g0, g1), 1.0f);
-    const float far_z = lane_min(p.top - p.per_m * lane_min(g0, g1), 1.0f);
+    const float near_z = p.top - p.per_m * lane_max(g0, g1), far_z = p.top - p.per_m * lane_min(g0, g1);
     float slope_x[2], slope_y[2], error[2];
     for (int k = 0; k < 2; ++k) {
         slope_x[k] = (std::fabs(p.steep_a) * r[k]) * inv[k];
@@ -108,8 +107,8 @@ Seen see(const Receiver& p, const SliceRange& range, std::int32_t size) {
             (((p.off * (r[k] * r[k])) * inv[k]) + stack_snap * (slope_x[k] + slope_y[k])) + stack_depth_error;
     }
     // From the middle of a texel to a place in it are at most half a texel each way.
-    s.nearest = (near_z - error[1]) - (slope_x[1] * 0.5f + slope_y[1] * 0.5f);
-    s.deepest = far_z - error[0];
+    s.nearest = lane_min((near_z - error[1]) - (slope_x[1] * 0.5f + slope_y[1] * 0.5f), 1.0f);
+    s.deepest = lane_min(far_z - error[0], 1.0f);
     return s;
 }
 
@@ -119,13 +118,14 @@ float compared_depth(const Receiver& p, const SliceRange& map, const Seen& s) {
     const float d = (p.nh - p.na * (map.sigma_x[0] + map.tau[0] * s.x[0])) -
                     p.nb * (map.sigma_y[0] + map.tau[0] * s.y[0]);
     const float inv = 1.0f / lane_max(d, stack_least_cosine);
-    const float z = lane_min(p.top - p.per_m * (p.h * r), 1.0f);
+    const float z = p.top - p.per_m * (p.h * r);
     const float slope_x = (p.steep_a * r) * inv, slope_y = (p.steep_b * r) * inv;
     const float error = (((p.off * (r * r)) * inv) + stack_snap * (std::fabs(slope_x) + std::fabs(slope_y))) +
                         stack_depth_error;
     const float to_middle_x = (static_cast<float>(s.ix[0]) + 0.5f) - s.x[0],
                 to_middle_y = (static_cast<float>(s.iy[0]) + 0.5f) - s.y[0];
-    return (z - error) + lane_min(slope_x * to_middle_x + slope_y * to_middle_y, 0.0f);
+    // Beyond the casters' range there is only background, at depth 1; the plane may come back from there.
+    return lane_min((z - error) + lane_min(slope_x * to_middle_x + slope_y * to_middle_y, 0.0f), 1.0f);
 }
 
 /// Where a descent stands.
@@ -188,10 +188,16 @@ class Query {
     Query(const StackLookup& stack, StackWork& work)
         : stack_(stack), octree_(stack.code), size_(1 << stack.code.shape.map_levels), work_(work) {}
 
-    int all(const StackPoints& points, std::size_t i) {
+    /// Of each run of 2^part_exponent maps, into lit[run * stride].
+    void all(const StackPoints& points, std::size_t i, int part_exponent, std::size_t stride,
+             std::uint16_t* lit) {
+        lit_ = {lit, stride, part_exponent};
+        for (std::int32_t first = 0; first < std::int32_t{1} << stack_.code.shape.slice_levels;
+             first += std::int32_t{1} << part_exponent)
+            lit_.part(first) = 0;
         const Receiver p(stack_, points, i);
-        if (p.before_near) return stack_.slices;
-        return run(p, 1, stack_.code.shape.slice_levels, octree_.root());
+        if (p.before_near) return lit_.add(0, stack_.slices);
+        run(p, 1, stack_.code.shape.slice_levels, octree_.root());
     }
 
     int subset(const StackPoints& points, std::size_t i, int samples) {
@@ -204,6 +210,27 @@ class Query {
     }
 
   private:
+    /// Where the lit samples of a point are counted.
+    struct Tally {
+        std::uint16_t* lit = nullptr;
+        std::size_t stride = 0;
+        int exponent = 0;
+
+        std::uint16_t& part(std::int32_t map) const {
+            return lit[static_cast<std::size_t>(map >> exponent) * stride];
+        }
+        /// Samples [first, first + maps).
+        void add(std::int32_t first, std::int32_t maps) const {
+            while (maps > 0) {
+                const std::int32_t end = ((first >> exponent) + 1) << exponent,
+                                   here = first + maps < end ? maps : end - first;
+                part(first) = static_cast<std::uint16_t>(part(first) + here);
+                first += here;
+                maps -= here;
+            }
+        }
+    };
+
     int single(const Receiver& p, std::int32_t k) {
         ++work_.lookups;
         const SliceRange& map = stack_.ranges[(std::int32_t{1} << stack_.code.shape.slice_levels) + k];
@@ -217,28 +244,29 @@ class Query {
     }
 
     /// Run i of 2^exponent maps; the descent of the run that it is half of stands at `at`.
-    int run(const Receiver& p, std::int32_t i, int exponent, Place at) {
+    void run(const Receiver& p, std::int32_t i, int exponent, Place at) {
         const std::int32_t first = (i << exponent) - (std::int32_t{1} << stack_.code.shape.slice_levels);
         std::int32_t maps = stack_.slices - first;
-        if (maps <= 0) return 0;
+        if (maps <= 0) return;
         const std::int32_t length = std::int32_t{1} << exponent;
         if (maps > length) maps = length;
         ++work_.lookups;
         const SliceRange& range = stack_.ranges[i];
         const Seen s = see(p, range, size_);
-        if (s.outside) return maps;
-        if (s.inside && s.away) return 0;
+        if (s.outside) return lit_.add(first, maps);
+        if (s.inside && s.away) return;
         if (s.inside) {
             while (!at.ended && at.height > 0 && step(at, s, first, first + length - 1)) {
             }
             if (at.ended && s.facing) {
                 const float value = octree_.value(at);
-                if (exponent == 0) return compared_depth(p, range, s) <= value ? 1 : 0;
-                if (s.deepest <= value) return maps;
-                if (value < s.nearest) return 0;
+                if (exponent == 0) return lit_.add(first, compared_depth(p, range, s) <= value ? 1 : 0);
+                if (s.deepest <= value) return lit_.add(first, maps);
+                if (value < s.nearest) return;
             }
         }
-        return run(p, 2 * i, exponent - 1, at) + run(p, 2 * i + 1, exponent - 1, at);
+        run(p, 2 * i, exponent - 1, at);
+        run(p, 2 * i + 1, exponent - 1, at);
     }
 
     /// Looks at the children that hold a part of the box in maps [first, last]. True when the descent went
@@ -278,15 +306,24 @@ class Query {
     Octree octree_;
     std::int32_t size_;
     StackWork& work_;
+    Tally lit_;
 };
 
 }  // namespace
 
 void lit_samples(const StackLookup& stack, const StackPoints& points, std::uint16_t* lit,
                  StackWork& work) noexcept {
+    lit_of_parts(stack, points, 1, lit, work);
+}
+
+void lit_of_parts(const StackLookup& stack, const StackPoints& points, std::int32_t parts, std::uint16_t* lit,
+                  StackWork& work) noexcept {
     Query query(stack, work);
+    int exponent = stack.code.shape.slice_levels;
+    for (std::int32_t of = parts; of > 1; of /= 2)
+        --exponent;
     for (std::size_t i = 0; i < points.count; ++i)
-        lit[i] = static_cast<std::uint16_t>(query.all(points, i));
+        query.all(points, i, exponent, points.count, lit + i);
 }
 
 void lit_of_subset(const StackLookup& stack, const StackPoints& points, int samples, std::uint16_t* lit,

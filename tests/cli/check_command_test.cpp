@@ -71,6 +71,60 @@ file = "out_####.png"
         << "something was written";
 }
 
+TEST(CheckCommand, StacksAreToldAdvisedAndRefusedAtTheirKey) {
+    const TemporaryFolder folder;
+    const std::string lamp =
+        "format = 1\n[camera]\neye_m = [0, 2, 6]\nlook_at_m = [0, 0, 0]\n[render]\nsize_px = [20, 16]\n"
+        "[[mesh]]\nid = \"floor\"\nshape = \"box\"\nsize_m = [8, 1, 8]\n[[light]]\nid = \"lamp\"\n"
+        "type = \"area\"\nposition_m = [0, 4, 0]\nlook_at_m = [0, 0, 0]\nradiance_w_m2_sr = 1\n";
+    const std::string stack = "[shadow.lamp]\nmethod = \"stack\"\nresolution = 512\n";
+    folder.write("s.toml", lamp + stack);
+    folder.write("e.toml", lamp);
+    const std::string told = check_report({folder.path / "s.toml", {}, {}});
+    for (const char* line :
+         {"light     lamp: area, a stack of 64 shadow maps of 512 x 512, aimed at a level plane: 12 "
+          "triangles to "
+          "build 64 times, once, 1280 samples to look up a frame, all maps each; about 64.9 KiB, ",
+          " more meanwhile\n          stack: as asked\n"})
+        EXPECT_NE(told.find(line), std::string::npos) << told;
+    EXPECT_EQ(told.find("note      light"), std::string::npos) << told;
+
+    // Many frames in which it stands still: said, not done.
+    const char* advice = "note      light 'lamp': its points have casters of their own";
+    const auto report_of = [&](const char* file, std::vector<std::string> overrides) {
+        return check_report({folder.path / file, std::move(overrides), {}});
+    };
+    const std::string many = report_of("e.toml", {"frames.range=\"1-20\""});
+    EXPECT_NE(many.find(advice), std::string::npos) << many;
+    EXPECT_NE(many.find("          exact: "), std::string::npos) << many;
+    EXPECT_EQ(report_of("e.toml", {}).find(advice), std::string::npos) << "one frame";
+    const std::string moving = report_of(
+        "e.toml", {"frames.range=\"1-20\"",
+                   "frames.light=[{id=\"lamp\", frame=1, radiance_w_m2_sr=1}, {id=\"lamp\", frame=20, "
+                   "radiance_w_m2_sr=2}]"});
+    EXPECT_EQ(moving.find(advice), std::string::npos) << moving;
+
+    // A lamp that shines to its back, too, in a room.
+    const auto refused_of = [&](std::vector<std::string> overrides) -> std::string {
+        try {
+            report_of("s.toml", std::move(overrides));
+        } catch (const InputError& error) {
+            return error.what();
+        } catch (const LimitError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string inside = refused_of(
+        {"mesh.floor.size_m=[8, 8, 8]", "light.lamp.two_sided=true", "light.lamp.position_m=[0,1,0]"});
+    EXPECT_NE(inside.find("s.toml:18:1"), std::string::npos) << inside;
+    EXPECT_NE(
+        inside.find("light 'lamp': shadow.method = \"stack\" aims all maps at one plane below the light, "
+                    "and there is none"),
+        std::string::npos)
+        << inside;
+}
+
 TEST(CheckCommand, TellsWhatHoursOfSunTake) {
     const TemporaryFolder folder;
     folder.write("s.toml", R"(format = 1

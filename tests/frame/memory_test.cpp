@@ -103,6 +103,7 @@ TEST(FrameMemory, EstimatesAreNearWhatIsReallyTaken) {
         {"tests/glare_post.toml", {}},
         {"tests/ortho.toml", {}},
         {"tests/point_in_box.toml", {}},
+        {"tests/soft_stack.toml", {}},
         {"tests/spot.toml", {}},
         {"tests/stereo_pair.toml", {}},
         {"tests/textured_quad.toml", {}},

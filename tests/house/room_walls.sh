@@ -26,7 +26,7 @@ stereo           raster
 stereo/solver    stereo
 stereo/thesis    stereo/solver
 app/scene        core/sky optics stereo stereo/thesis scenes
-app/frame        app/scene raster/exact
+app/frame        app/scene raster/exact hierarchy/stack
 app/pair         app/frame
 app/report       app/pair lessons/drawing
 app/cli          app/report

@@ -61,6 +61,24 @@ TEST(PixelTrace, EndsThereWithLightsThatHaveASize) {
         expect_pictures_pixels(softly(everything(samples)));
 }
 
+/// The same out of stacks.
+Scene stacked(Scene scene) {
+    for (SceneLight& light : scene.lights) {
+        const bool inside = light.light.kind == LightKind::point;
+        light.shadow.method = inside ? ShadowMethod::exact : ShadowMethod::stack;
+        light.shadow.samples = 16;
+        light.shadow.resolution = 256;
+    }
+    return scene;
+}
+
+TEST(PixelTrace, EndsThereWithStacks) {
+    for (const int samples : {1, 4})
+        expect_pictures_pixels(stacked(softly(everything(samples))));
+    const std::string text = trace_pixel(stacked(softly(everything(1))), 100, 110).text;
+    EXPECT_NE(text.find("of 16 points of the light reach it; of its 16 parts"), std::string::npos) << text;
+}
+
 TEST(PixelTrace, TellsOfALightWithASizeHowMuchReachesASample) {
     Scene scene = softly(everything(4));
     scene.sky.occlusion = true;

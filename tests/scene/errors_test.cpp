@@ -135,6 +135,36 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:10:1: 'filter' needs method = \"compressed\""},
         {"DenseCache", light(directional + "[shadow.sun]\nmethod = \"map\"\ncache = \"c\""),
          "s.toml:10:1: 'cache' needs method = \"compressed\""},
+        {"StackWithoutSize", light(directional + "[shadow.sun]\nmethod = \"stack\""),
+         "s.toml:9:10: method = \"stack\" needs a light with a size, which light 'sun' has not"},
+        {"StackOfAuto",
+         light(directional + "angular_diameter_deg = 1\n[shadow.sun]\nmethod = \"stack\"\n"
+                             "samples = \"auto\""),
+         "s.toml:11:11: 'samples' = \"auto\" needs method = \"exact\""},
+        {"StackOfOne",
+         light(directional + "angular_diameter_deg = 1\n[shadow.sun]\nmethod = \"stack\"\n"
+                             "samples = 1"),
+         "s.toml:11:11: 'samples' must be at least 4 with method = \"stack\", not 1"},
+        {"StackOfNoPower",
+         light(directional + "angular_diameter_deg = 1\n[shadow.sun]\nmethod = \"stack\"\n"
+                             "samples = 100"),
+         "s.toml:11:11: 'samples' must be one of 1, 4, 16, 64, 256, 1024 or \"auto\", not 100"},
+        {"StackTooFine",
+         light(directional + "angular_diameter_deg = 1\n[shadow.sun]\nmethod = \"stack\"\n"
+                             "resolution = 131072"),
+         "s.toml:11:14: 'resolution' must be at most 65536 with method = \"stack\""},
+        {"StackScope",
+         light(directional + "angular_diameter_deg = 1\n[shadow.sun]\nmethod = \"stack\"\n"
+                             "scope = \"full\""),
+         "s.toml:11:1: 'scope' needs method = \"compressed\""},
+        {"StackFilter",
+         light(directional + "angular_diameter_deg = 1\n[shadow.sun]\nmethod = \"stack\"\n"
+                             "filter_px = 3"),
+         "s.toml:11:1: 'filter_px' needs method = \"map\" or \"compressed\""},
+        {"StackMagnification",
+         light(directional + "angular_diameter_deg = 1\n[shadow.sun]\nmethod = \"stack\"\n"
+                             "resolution = 512\nmax_magnification = 2"),
+         "s.toml:12:1: 'max_magnification' needs resolution = \"auto\""},
         {"CacheOfFrames", light(directional + "[shadow.sun]\nscope = \"frame\"\ncache = \"c\""),
          "s.toml:10:1: 'cache' needs scope = \"full\""},
         {"UnshadowedScope", light(directional + "[shadow.sun]\nmethod = \"none\"\nscope = \"full\""),

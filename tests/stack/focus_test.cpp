@@ -46,6 +46,23 @@ TEST(LightSamples, FollowAHilbertCurve) {
     }
 }
 
+/// Samples that came in another order are put in that of a curve: steps from cell to neighbouring cell.
+TEST(LightSamples, ArePutInAHilbertCurvesOrder) {
+    for (const int side : {2, 4, 8, 32}) {
+        std::vector<Vec2d> places;
+        for (int i = 0; i < side * side; ++i)
+            places.push_back({3 + 0.5 * (i % side), -7 + 0.5 * (i / side)});
+        const std::vector<std::size_t> order = hilbert_order(places);
+        ASSERT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), places.size());
+        for (std::size_t k = 1; k < order.size(); ++k) {
+            const Vec2d a = places[order[k - 1]], b = places[order[k]];
+            EXPECT_NEAR(std::fabs(a.x - b.x) + std::fabs(a.y - b.y), 0.5, 1e-12) << side << ", " << k;
+        }
+    }
+    EXPECT_EQ(hilbert_order({{1, 1}, {1, 1}, {1, 1}}), (std::vector<std::size_t>{0, 1, 2}));
+    EXPECT_TRUE(hilbert_order({}).empty());
+}
+
 TEST(LightSamples, ADiscHasEqualAreas) {
     const LightSamples disc = disc_samples({1, 2, 3}, {1, 1, 0}, 2, 1024);
     double inner = 0;

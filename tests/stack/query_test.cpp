@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "hierarchy/stack/encode.h"
 #include "tests/hierarchy/tree_compare.h"
@@ -106,6 +107,54 @@ TEST(StackQuery, EveryInstructionSetAgreesWithTheReference) {
     }
 }
 
+/// Of parts of the light: each asks its own maps, at the steps of all, and down to single maps.
+TEST(StackQuery, PartsOfTheLightAreRunsOfMaps) {
+    const Vec3d eye{1, 2, 3};
+    for (const auto& [lamp, slices] :
+         {std::pair{Lamp::level, 64}, {Lamp::tilted, 16}, {Lamp::sun, 64}, {Lamp::path, 39}}) {
+        const Mesh mesh = lit::scene(9, true);
+        const ShadowStack stack = build_stack(
+            mesh, focused_views(mesh, lit::samples_of(lamp, slices), lit::focus(128)), {}, Exec{});
+        const StackLookup lookup = stack_lookup(stack, eye);
+        const lit::Points points = lit::drawn_points(mesh, eye, 2001, 4);
+        const std::size_t count = points.view().count;
+        StackWork at_once;
+        const auto all = all_of(lookup, points.view(), Isa::ref, at_once);
+        for (const int parts : {1, 4, 16, 64}) {
+            if (parts > 1 << stack.code.shape.slice_levels) continue;
+            std::vector<std::uint16_t> expected(count * static_cast<std::size_t>(parts), 7);
+            StackWork work;
+            ref::lit_of_parts(lookup, points.view(), parts, expected.data(), work);
+            EXPECT_EQ(work.nodes, at_once.nodes);
+            for (std::size_t i = 0; i < count; ++i) {
+                int sum = 0;
+                for (std::size_t part = 0; part < static_cast<std::size_t>(parts); ++part)
+                    sum += expected[part * count + i];
+                ASSERT_EQ(sum, all[i]) << parts;
+            }
+            for (const Isa isa : supported_isas()) {
+                std::vector<std::uint16_t> lit(expected.size(), 9);
+                StackWork own;
+                OBSCURA_DISPATCH(isa, lit_of_parts, lookup, points.view(), parts, lit.data(), own);
+                EXPECT_EQ(differences(lit, expected), 0u) << isa_name(isa) << ' ' << parts;
+                EXPECT_EQ(own.nodes, work.nodes);
+            }
+            if (parts != slices) continue;
+            // A map each: as many of the first of them reach a point as one by one.
+            StackLookup some = lookup;
+            for (some.slices = 1; some.slices <= slices; some.slices += 9) {
+                const auto one_by_one = some_of(some, points.view(), some.slices, Isa::ref, work);
+                for (std::size_t i = 0; i < count; ++i) {
+                    int sum = 0;
+                    for (std::size_t k = 0; k < static_cast<std::size_t>(some.slices); ++k)
+                        sum += expected[k * count + i];
+                    ASSERT_EQ(sum, one_by_one[i]) << some.slices;
+                }
+            }
+        }
+    }
+}
+
 /// Lookups by the definition, in doubles and with the texels of the views themselves: where no texel's border
 /// and no depth is near, floats say the same.
 TEST(StackQuery, TexelsAndDepthsAreThoseOfTheViews) {
@@ -150,7 +199,7 @@ TEST(StackQuery, TexelsAndDepthsAreThoseOfTheViews) {
                 clear = clear && std::fabs(area) > 1e-6;
                 const double sx = (aq.z * ar.y - ar.z * aq.y) / area, sy = (ar.z * aq.x - aq.z * ar.x) / area;
                 const double rise = sx * (0.5 - fx) + sy * (0.5 - fy);
-                const double depth = std::min(at.z, 1.0) + std::min(rise, 0.0);
+                const double depth = std::min(at.z + std::min(rise, 0.0), 1.0);
                 const float stored = stack_value(stack.code, static_cast<unsigned>(at.x),
                                                  static_cast<unsigned>(at.y), static_cast<unsigned>(k));
                 clear = clear && std::fabs(depth - static_cast<double>(stored)) >
@@ -163,6 +212,61 @@ TEST(StackQuery, TexelsAndDepthsAreThoseOfTheViews) {
         }
         EXPECT_GT(compared, 1500);
         EXPECT_EQ(wrong, 0) << "of " << compared << ", lamp " << static_cast<int>(lamp);
+    }
+}
+
+/// Casters that are thin and stand alone: whatever they shade lies far beyond the range of depths that their
+/// maps have. Points below are dark or lit as a ray says, however steep their surface; those above are lit.
+TEST(StackQuery, ReceiversFarBeyondTheCastersAreShadedAsRaysSay) {
+    Mesh mesh;
+    solids::add(mesh, solids::shifted(box({6, 0.02, 6}), {1, 4, -1}));
+    std::mt19937 rng(17);
+    const auto uniform = [&](double low, double high) {
+        return low + (high - low) * (static_cast<double>(rng()) / 4294967296.0);
+    };
+    for (const Lamp lamp : {Lamp::level, Lamp::tilted, Lamp::sun}) {
+        const LightSamples samples = lit::samples_of(lamp, 16);
+        StackBuildParams params;
+        params.tree.anisotropies = {0};
+        const ShadowStack stack =
+            build_stack(mesh, focused_views(mesh, samples, lit::focus(256)), params, Exec{});
+        lit::Points points;
+        std::vector<int> expected;
+        for (int i = 0; expected.size() < 6000; ++i) {
+            const double y = i % 3 == 0 ? uniform(4.1, 9) : i % 3 == 1 ? uniform(-3, 3.5) : -uniform(3, 300);
+            const Vec3d aim{uniform(-3.5, 5.5), 4, uniform(-5.5, 3.5)};
+            const Vec3d middle = samples.at[samples.at.size() / 2];
+            const Vec3d way = samples.directional ? middle : normalize(aim - middle);
+            const Vec3d p = aim + way * ((y - aim.y) / way.y);
+            const Vec3d n =
+                normalize(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)} * uniform(0, 3) - way);
+            // Where a texel's border or the surface's own horizon may decide, nothing is known.
+            int count = 0;
+            bool clear = true;
+            for (const Vec3d& sample : samples.at) {
+                const Vec3d l = samples.directional ? -sample : sample - p;
+                clear = clear && (y > 4 || dot(n, normalize(l)) > 0.02);
+                const Vec3d at = p + l * ((4 - p.y) / l.y);
+                const double beside = std::max(std::fabs(at.x - 1), std::fabs(at.z + 1)) - 3;
+                clear = clear && std::fabs(beside) > 0.15;
+                count += y > 4 || beside > 0 ? 1 : 0;
+            }
+            if (!clear) continue;
+            points.add(p, n, 0);
+            expected.push_back(count);
+        }
+        const StackLookup lookup = stack_lookup(stack, {0, 0, 0});
+        for (const Isa isa : {Isa::ref, best_isa()}) {
+            StackWork work;
+            const auto lit = all_of(lookup, points.view(), isa, work);
+            int wrong = 0, dark = 0;
+            for (std::size_t i = 0; i < lit.size(); ++i) {
+                wrong += lit[i] != expected[i];
+                dark += expected[i] == 0;
+            }
+            EXPECT_EQ(wrong, 0) << "lamp " << static_cast<int>(lamp) << ", " << isa_name(isa);
+            EXPECT_GT(dark, 1000);
+        }
     }
 }
 

@@ -80,7 +80,8 @@ inline Points drawn_points(const Mesh& mesh, Vec3d eye, int count, std::uint32_t
         Vec3d p{uniform(-13, 13), 0, uniform(-13, 13)};
         Vec3d n{0, 1, 0};
         if (i % 4 == 1) {
-            p = Vec3d{uniform(-30, 30), uniform(-4, 20), uniform(-30, 30)};
+            // Some of them far beyond what casts.
+            p = Vec3d{uniform(-30, 30), uniform(i % 16 == 5 ? -400 : -4, 20), uniform(-30, 30)};
             n = normalize(Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)});
         } else if (i % 4 != 0) {
             const Triangle& t = mesh.triangles[rng() % mesh.triangles.size()];
