@@ -69,13 +69,6 @@ const KeyRows<Sky>& sky_rows() {
                          name_key("sun",
                                   "Clear and overcast: id of the light whose direction the sky follows; "
                                   "the first sun, else the first directional light, when not given.")),
-        key_row_if_given(
-            &Sky::occlusion,
-            boolean_key("occlusion",
-                        "Whether what stands before the sky keeps its light off. true, the default of all "
-                        "but gradients: light comes from `samples` directions, with exact shadows; what is "
-                        "mirrored of it is dimmed as much of it as is hidden. false: it reaches every "
-                        "surface, in closed rooms, too, as if nothing stood anywhere, and costs nothing.")),
         key_row(&Sky::bounces,
                 integer_key("bounces",
                             "Occlusion: how often surfaces send on the light of lights and sky that reaches "
@@ -97,6 +90,13 @@ const KeyRows<Sky>& sky_rows() {
                 number_key("ambient", "Scale of the light the sky sheds on surfaces.").in({0, 1000})),
         key_row(&Sky::visible,
                 boolean_key("visible", "false makes the background black; the ambient light stays.")),
+        key_row_if_given(
+            &Sky::occlusion,
+            boolean_key("occlusion",
+                        "Whether what stands before the sky keeps its light off. true, the default of all "
+                        "but gradients: light comes from `samples` directions, with exact shadows; what is "
+                        "mirrored of it is dimmed as much of it as is hidden. false: it reaches every "
+                        "surface, in closed rooms, too, as if nothing stood anywhere, and costs nothing.")),
     };
     return rows;
 }

@@ -83,7 +83,7 @@ struct ShadowSettings {
     ShadowCode code = ShadowCode::mh;
     TreeLayout layout = TreeLayout::words24;  ///< mh only
     int top_levels = 6;                       ///< first levels that are kept as a table, in [0, 10]
-    std::string cache;                        ///< folder for finished maps of scope full, and stacks; empty: none
+    std::string cache;  ///< folder for finished maps of scope full, and stacks; empty: none
     friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
 };
 

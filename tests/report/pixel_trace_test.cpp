@@ -85,7 +85,7 @@ TEST(PixelTrace, TellsOfALightWithASizeHowMuchReachesASample) {
     scene.sky.samples = 16;
     const std::string text = trace_pixel(scene, 100, 110).text;
     for (const char* word : {"(directional, with a size): ", " of 16 points reach it",
-                             "(area, with a size): ", "sky: ", " of 5 directions reach it"})
+                             "(area, with a size): ", "sky: ", " of 6 directions reach it"})
         EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
 }
 
