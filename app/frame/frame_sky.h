@@ -22,6 +22,9 @@ struct FrameSky {
     /// sixteenth as many, at least 4; half as many when surfaces send light on, most of which they hide.
     std::vector<Light> lights;
     std::vector<double> solid_angle_sr;  ///< that each stands for
+    /// The same light from few directions, 16 and 8 from below: what patches of surfaces ask.
+    std::vector<Light> few;
+    std::vector<double> few_sr;
 };
 
 FrameSky frame_sky(const Sky& sky, const Exec& exec);

@@ -16,6 +16,7 @@
 #include "core/error.h"
 #include "core/mesh_memory.h"
 #include "core/parallel.h"
+#include "core/sky/image_sky.h"
 #include "raster/layer_tile.h"
 #include "raster/setup_memory.h"
 
@@ -60,7 +61,8 @@ double mib(std::int64_t bytes) {
 /// Suns that hours of sun are counted of, with or without sun; none: not wanted.
 int suns_of(const Scene& scene, const FrameOptions& wanted) {
     const Light* sun = wanted.sun_hours ? sun_with_path(scene) : nullptr;
-    return sun != nullptr ? sun->path->steps : 0;
+    // A step in which the sun sets and rises again has two.
+    return sun != nullptr ? sun->path->steps + 1 : 0;
 }
 
 }  // namespace
@@ -78,6 +80,9 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         for (const auto& level : texture.levels)
             e.textures += static_cast<std::int64_t>(level.pixels.size() * sizeof(Vec3f));
     }
+    // As it was read, and as frames ask it.
+    if (scene.sky.image)
+        e.textures += static_cast<std::int64_t>(2 * scene.sky.image->pixels.pixels.size() * sizeof(Vec3f));
     bool maps = false;
     std::int64_t dense = 0;  // whole blocks, which leave nothing over
     for (const SceneLight& light : lights) {

@@ -21,9 +21,8 @@ namespace obscura {
 namespace {
 
 constexpr std::size_t points_together = 8192;
-/// Points that stand for a light with a size, and directions for the sky above. Discs that are narrower than
-/// so many degrees are one point.
-constexpr int most_light_points = 16, sky_directions_asked = 16;
+/// Points that stand for a light with a size. Discs that are narrower than so many degrees are one point.
+constexpr int most_light_points = 16;
 constexpr double narrow_deg = 2;
 
 /// A light as patches ask it.
@@ -196,16 +195,10 @@ class Exchange {
         return points;
     }
 
-    /// Every so many-th of the sky's directions, for as many others.
     std::vector<Asked> sky_lights() const {
-        const auto each = static_cast<std::size_t>(sky_.sky.samples / sky_directions_asked);
         std::vector<Asked> asked;
-        for (std::size_t i = each / 2; i < sky_.lights.size(); i += each) {
-            Asked& a = asked.emplace_back();
-            a.light = sky_.lights[i];
-            a.light.color = a.light.color * static_cast<float>(each);
-            a.solid_angle_sr = sky_.solid_angle_sr[i] * static_cast<double>(each);
-        }
+        for (std::size_t i = 0; i < sky_.few.size(); ++i)
+            asked.push_back({sky_.few[i], sky_.few_sr[i]});
         return asked;
     }
 
@@ -292,10 +285,8 @@ class Exchange {
                 patches[i] = {middle.p, facing_of(middle.n), patch.area_m2};
             }
         });
-        parallel_for(SurfaceLight::levels - 1, exec_, [&](std::size_t i) {
-            const double radius_m = patches_.size_m * static_cast<double>(2u << i);
-            sent.sent[i + 1] = mean_around(patches, sent.sent[0], radius_m);
-        });
+        for (std::size_t l = 1; l < SurfaceLight::levels; ++l)
+            sent.sent[l] = mean_around(patches, sent.sent[0], patches_.size_m * static_cast<double>(1u << l));
         if (sky_.sky.bounces > 1) sent.patches = patches_;
         return sent;
     }
@@ -342,8 +333,10 @@ std::int64_t surface_light_bytes(const MeshSize& mesh) {
 std::int64_t surface_light_work_bytes(const MeshSize& mesh) {
     const std::int64_t patches = 2 * (surface_cells + mesh.triangles);
     constexpr std::int64_t point = 3 * sizeof(double) + 3 * sizeof(float) + 3 * sizeof(std::uint32_t);
-    // Light that arrives, twice; and of two means at a time the corners around each patch.
-    return patches * (point + 2 * std::int64_t{sizeof(Vec3f)} + std::int64_t{sizeof(BlurPatch)} + 2 * 64);
+    // Light that arrives, twice, what was sent before, and of a mean the corners around each patch: their
+    // places and shares, and up to four corners of its own, which grow by doubling.
+    return patches * (point + (2 + SurfaceLight::levels) * std::int64_t{sizeof(Vec3f)} +
+                      std::int64_t{sizeof(BlurPatch)} + 64 + 4 * 2 * 56);
 }
 
 }  // namespace obscura

@@ -267,16 +267,17 @@ Image<float> lens_mask(const Builder& b) {
 }
 
 /// The sky's picture when it has one. Textures' limits hold for it, too.
-std::shared_ptr<const ImageSky> sky_picture(const Builder& b) {
+std::shared_ptr<const ImageSky> sky_picture(Builder& b) {
     const SceneTable& sky = subtable(b.document.root, "sky");
     if (text(sky, "model") != "image") return nullptr;
     return load_named(b, sky, "file", [&](const std::filesystem::path& path) {
-        ImageFileLimits limits;
-        limits.max_side_px = b.limits.texture_px;
-        limits.max_bytes = b.limits.texture_mib << 20;
-        ImageSky image = image_sky(read_file(path, largest_texture_file), text(sky, "file"),
-                                   number(sky, "file_scale"), limits);
-        image.left_edge_azimuth_deg = number(sky, "left_edge_azimuth_deg");
+        const ImageFileLimits limits{b.limits.texture_px, b.limits.texture_mib << 20,
+                                     " (limits.texture_mib raises it)"};
+        const double scale = sky.has("file_scale") ? number(sky, "file_scale") : 1.0;
+        ImageSky image = image_sky(read_file(path, largest_texture_file), text(sky, "file"), scale, limits);
+        b.texture_memory += static_cast<std::int64_t>(image.pixels.pixels.size() * sizeof(Vec3f));
+        if (sky.has("left_edge_azimuth_deg"))
+            image.left_edge_azimuth_deg = number(sky, "left_edge_azimuth_deg");
         return std::make_shared<const ImageSky>(std::move(image));
     });
 }

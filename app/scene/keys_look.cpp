@@ -51,13 +51,12 @@ const KeyRows<Sky>& sky_rows() {
             "file",
             "Image: PFM, linear radiance in W/(m2 sr), twice as wide as high: the top row looks straight "
             "up, and columns run clockwise as seen from above.")},
-        {number_key("file_scale", "Image: what the file's numbers are multiplied by.")
-             .in({0, 1e6, true})
-             .or_else(1.0)},
-        {number_key("left_edge_azimuth_deg",
-                    "Image: where its left and right edges look; 180 has north in the middle.")
-             .in({-360, 360})
-             .or_else(180.0)},
+        {number_key("file_scale", "Image: what the file's numbers are multiplied by; 1 when not given.")
+             .in({0, 1e6, true})},
+        {number_key(
+             "left_edge_azimuth_deg",
+             "Image: where its left and right edges look; 180, when not given, has north in the middle.")
+             .in({-360, 360})},
         key_row(
             &Sky::turbidity,
             number_key("turbidity", "Clear: how hazy the air is; 2 is very clear, 6 hazy.").in({1.7, 10})),

@@ -36,7 +36,10 @@ const KeyRows<RenderSettings>& render_rows() {
 
 const KeyRows<Output>& output_rows() {
     static const KeyRows<Output> rows{
-        word_row(&Output::aov, aov_words, "aov", "What to write."),
+        word_row(
+            &Output::aov, aov_words, "aov",
+            "What to write. sun_hours: hours of direct sun over the path of the first sun (from, to); NaN "
+            "where nothing is; as PNG coloured, from 160 pixels of width with a scale of 48 rows below."),
         key_row(
             &Output::file,
             file_key(

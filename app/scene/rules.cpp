@@ -226,10 +226,14 @@ void check_frames(const SceneDocument& document, const std::vector<std::string>&
 void check_sky(const SceneTable& root, const std::vector<std::string>& light_ids, const Sources& sources) {
     const SceneTable& sky = subtable(root, "sky");
     const std::string model = text(sky, "model");
-    if (sky.has("file") != (model == "image")) {
-        fail_at(place_of(sky, sky.has("file") ? "file" : "model"), sources,
-                sky.has("file") ? "'file' needs 'model' = \"image\"" : "'model' = \"image\" needs 'file'");
+    for (const char* key : {"file", "file_scale", "left_edge_azimuth_deg"}) {
+        if (sky.has(key) && model != "image")
+            fail_at(place_of(sky, key), sources, fmt::format("'{}' needs 'model' = \"image\"", key));
     }
+    if (model == "image" && !sky.has("file"))
+        fail_at(place_of(sky, "model"), sources, "'model' = \"image\" needs 'file'");
+    if (model == "image" && sky.has("sun"))
+        fail_at(place_of(sky, "sun"), sources, "'sun' needs 'model' = \"clear\" or \"overcast\"");
     if (model == "gradient" || model == "image") return;
     const std::string id = sky.has("sun") ? text(sky, "sun") : "";
     if (!id.empty()) require_known(id, place_of(sky, "sun"), light_ids, "light", sources);

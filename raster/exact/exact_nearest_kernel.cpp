@@ -22,7 +22,9 @@ OBSCURA_INLINE float floor_of(const ExactView& view, const Bunch& s, const Befor
     double floor = __builtin_inf();
     for (std::uint32_t left = s.open; left != 0; left &= left - 1) {
         const int k = __builtin_ctz(left);
-        const double z = static_cast<double>(s.z[k]) - before.distance[k] / view.depth_m;
+        // Less what rounding may take, of large terms too.
+        const double deep = static_cast<double>(s.z[k]), nearer = before.distance[k] / view.depth_m;
+        const double z = (deep - nearer) - 0x1p-50 * ((deep < 0 ? -deep : deep) + nearer);
         floor = z < floor ? z : floor;
     }
     // Less a rounding to float, and more than all of doubles.

@@ -194,6 +194,118 @@ TEST(SurfaceLight, InAClosedRoomEveryExchangeKeepsTheAlbedosShare) {
     }
 }
 
+/// A picture of a sky that is bright in one direction, and one of the ground that is dotted.
+std::shared_ptr<const ImageSky> panorama(double azimuth_deg, bool dotted) {
+    ImageSky sky;
+    sky.pixels = Image<Vec3f>(256, 128, Vec3f{0.02f, 0.02f, 0.02f});
+    if (dotted) {
+        for (int y = 64; y < 128; ++y) {
+            for (int x = 0; x < 256; ++x)
+                sky.pixels(x, y) = Vec3f{1, 1, 1} * (x % 8 == 3 && y % 8 == 5 ? 64.0f : 0.0f);
+        }
+    } else {
+        sky.pixels(100, 30) = {3000, 3000, 3000};
+    }
+    sky.left_edge_azimuth_deg = azimuth_deg;
+    return std::make_shared<const ImageSky>(std::move(sky));
+}
+
+TEST(SurfaceLight, FewDirectionsShedWhatAllDo) {
+    const auto level = [](const std::vector<Light>& lights, double side) {
+        double sum = 0;
+        for (const Light& l : lights)
+            sum += static_cast<double>(l.color.x) * std::max(0.0, -l.direction.y * side);
+        return sum;
+    };
+    for (const SkyKind kind : {SkyKind::gradient, SkyKind::clear, SkyKind::overcast, SkyKind::image}) {
+        for (const int samples : {16, 64, 256}) {
+            for (const double azimuth : {0.0, 30.0, 77.0, 200.0}) {
+                Sky sky;
+                sky.kind = kind;
+                sky.occlusion = true;
+                sky.samples = samples;
+                sky.sun_azimuth_deg = azimuth;
+                if (kind == SkyKind::image) sky.image = panorama(azimuth, false);
+                const FrameSky f = frame_sky(sky, {});
+                EXPECT_NEAR(level(f.few, 1), level(f.lights, 1), 0.07 * level(f.lights, 1)) << samples;
+                EXPECT_NEAR(level(f.few, -1), level(f.lights, -1), 0.06 * level(f.lights, -1)) << samples;
+                // All around: a wall gets as much from below whichever way it looks.
+                for (int turn = 0; turn < 360; turn += 30) {
+                    const Vec3d n = compass_direction(turn, 0);
+                    double wall = 0;
+                    for (std::size_t i = 16; i < f.few.size(); ++i)
+                        wall += std::max(0.0, -dot(f.few[i].direction, n)) * f.few_sr[i];
+                    EXPECT_NEAR(wall, num::pi / 2, 0.2 * num::pi / 2) << turn;
+                }
+            }
+        }
+    }
+}
+
+TEST(ImageSkies, DottedGroundShedsItsMean) {
+    for (const int samples : {16, 64, 256}) {
+        Sky sky;
+        sky.kind = SkyKind::image;
+        sky.occlusion = true;
+        sky.samples = samples;
+        sky.image = panorama(0, true);
+        const FrameSky f = frame_sky(sky, {});
+        double down = 0;
+        for (std::size_t i = static_cast<std::size_t>(samples); i < f.lights.size(); ++i)
+            down += static_cast<double>(f.lights[i].color.x) * f.lights[i].direction.y;
+        EXPECT_NEAR(std::abs(down), num::pi, 0.06 * num::pi) << samples;
+    }
+}
+
+TEST(ImageSkies, TheGradientThatStandsForOneHasItsLight) {
+    for (const double azimuth : {0.0, 90.0}) {
+        Sky sky;
+        sky.kind = SkyKind::image;
+        sky.image = panorama(azimuth, false);
+        const FrameSky f = frame_sky(sky, {});
+        const double expected = unoccluded_irradiance(sky_grid(*f.model, {}), {0, 1, 0}).x;
+        const double got = num::pi * (static_cast<double>(f.shade.horizon[0]) / 3 +
+                                      2 * static_cast<double>(f.shade.zenith[0]) / 3);
+        EXPECT_NEAR(got, expected, 1e-3 * expected);
+        EXPECT_NEAR(f.shade.ground[0], 0.02, 1e-4);
+        EXPECT_GE(f.shade.horizon[0], 0);
+        EXPECT_GE(f.shade.zenith[0], 0);
+    }
+}
+
+TEST(ImageSkies, LightLevelGroundAsTheyAre) {
+    Scene scene = empty_scene(9, 9);
+    add(scene, plane(40, 40), 0);
+    scene.camera.eye = {0, 2, 0.1};
+    scene.camera.look_at = {0, 0, 0};
+    scene.sky = Sky{};
+    scene.sky.kind = SkyKind::image;
+    scene.sky.image = panorama(40, false);
+    scene.sky.samples = 64;
+    const double expected = unoccluded_irradiance(sky_grid(*scene.sky.image), {0, 1, 0}).x;
+    for (const bool occlusion : {false, true}) {
+        scene.sky.occlusion = occlusion;
+        scene.materials[0].base_color = {1, 1, 1};
+        const Frame white = render_frame(scene);
+        scene.materials[0].base_color = {0, 0, 0};
+        const Frame black = render_frame(scene);
+        const double got = static_cast<double>((pixel(white, 4, 4) - pixel(black, 4, 4)).x) * num::pi;
+        // Let in, and out again; ambient light is let in whole.
+        EXPECT_NEAR(got, 0.96 * (occlusion ? 0.96 : 1) * expected, 0.03 * expected) << occlusion;
+    }
+    // Another picture is another sky, whatever was kept.
+    FrameCache cache;
+    Frame frame;
+    render_frame(scene, {}, {}, cache, frame);
+    const Vec3f before = pixel(frame, 4, 4);
+    ImageSky dark = *scene.sky.image;
+    for (Vec3f& p : dark.pixels.pixels)
+        p = p * 0.5f;
+    scene.sky.image = std::make_shared<const ImageSky>(std::move(dark));
+    render_frame(scene, {}, {}, cache, frame);
+    EXPECT_NEAR(pixel(frame, 4, 4).x, 0.5f * before.x, 1e-3f * before.x);
+}
+
 TEST(SurfaceLight, ThinSheetsSendThroughWhatReachesTheirOtherSide) {
     Scene scene = empty_scene(16, 16);
     scene.materials[0].translucency = 0.25f;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/topology.h"
 #include "raster/depth_tile.h"
 #include "raster/exact/casters.h"
 #include "raster/exact/exact_shadow.h"
@@ -82,6 +83,49 @@ TEST(ExactNearest, IsTheNearestOfAllThatDarken) {
     for (unsigned seed = 0; seed < scenes && !testing::Test::HasFatalFailure(); ++seed)
         compare(seed, sum);
     EXPECT_GT(sum.dark, sum.points / 5);
+}
+
+/// So many small triangles, and large ones, in a column below the light.
+Mesh column(Source& source, int triangles) {
+    Mesh mesh;
+    for (int t = 0; t < triangles; ++t) {
+        const Vec3d at{source.between(-1, 1), source.between(0, 30), source.between(-1, 1)};
+        const double size = t % 50 == 0 ? 3 : 0.2;
+        for (int k = 0; k < 3; ++k) {
+            mesh.positions.push_back(to_float(at + source.in(-1, 1) * size));
+            mesh.normals.push_back({0, 1, 0});
+        }
+        const auto v = static_cast<std::uint32_t>(3 * t);
+        mesh.triangles.push_back({{v, v + 1, v + 2}});
+    }
+    mesh.material.assign(mesh.triangles.size(), 0);
+    mesh.object.assign(mesh.triangles.size(), 0);
+    mesh.objects.assign(1, Object{"column", true});
+    analyse_topology(mesh);
+    return mesh;
+}
+
+TEST(ExactNearest, InColumnsOfAnyNumber) {
+    // Up to 256 near sixteen bunches, up to 4096 near one, and more.
+    for (const int triangles : {40, 600, 6000}) {
+        Source source(static_cast<unsigned>(triangles));
+        const Mesh mesh = column(source, triangles);
+        Light light;
+        light.kind = LightKind::directional;
+        light.direction = normalize(Vec3d{0.02, -1, 0.01});
+        TriangleSetup scratch;
+        const auto casters = build_casters(mesh, light, {}, scratch);
+        const ExactLight exact = exact_light(light, casters, mesh, rays_from({0, 40, 60}, 1e-3));
+        const Points drawn = draw_points(source, mesh, {0, 40, 60}, 160);
+        const ExactPoints points = drawn.view();
+        const Hits found = hits_of(points, exact, Isa::ref);
+        std::int64_t dark = 0;
+        for (const std::uint32_t t : found.triangle)
+            dark += t != no_triangle ? 1 : 0;
+        EXPECT_GT(dark, 8) << triangles;
+        for (const Isa isa : supported_isas())
+            ASSERT_EQ(hits_of(points, exact, isa), found) << isa_name(isa) << ", " << triangles;
+    }
 }
 
 TEST(ExactNearest, WantsParallelLight) {

@@ -17,6 +17,7 @@
 #include "app/scene/keys.h"
 #include "app/scene/shapes.h"
 #include "app/scene/toml_text.h"
+#include "core/sky/image_sky.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/image_io.h"
@@ -67,7 +68,7 @@ TEST(SceneFormat, EveryKeyIsDescribed) {
 
 /// Everything that rendering can see of a scene, compared by the structs' own equality.
 struct SceneLook {
-    std::uint64_t meshes = 0, textures = 0;  ///< hashes
+    std::uint64_t meshes = 0, textures = 0, sky_image = 0;  ///< hashes
     std::vector<Material> materials;
     Sky sky;
     RenderSettings render;
@@ -89,7 +90,12 @@ SceneLook look_at_scene(const SceneDocument& document, const FileAccess& access)
         mesh.bytes(o.name.data(), o.name.size()).value(o.name.size()).value(o.casts_shadow);
     for (const Texture& t : s.textures)
         textures.values(t.levels.at(0).pixels);
-    SceneLook look{mesh.state, textures.state, s.materials, s.sky, s.render, s.outputs, s.limits, {}, {}, {}};
+    Hasher sky_image;
+    if (s.sky.image) sky_image.values(s.sky.image->pixels.pixels).value(s.sky.image->left_edge_azimuth_deg);
+    SceneLook look{mesh.state, textures.state, sky_image.state, s.materials, s.sky,
+                   s.render,   s.outputs,      s.limits,        {},          {},
+                   {}};
+    look.sky.image = nullptr;  // which differs with every reading
     const FrameRange range = scene_frames(document);
     for (int i = 0; i < range.count(); ++i) {
         set_frame(s, document, range.at(i));
@@ -218,11 +224,12 @@ TEST_F(SceneKeys, OfEverythingElseAreRead) {
     };
     const std::string under_suns =
         base + sun("first", 90) + sun("second", 200) + "[sky]\nmodel = \"clear\"\n";
+    const std::string panorama = base + "[sky]\nmodel = \"image\"\nfile = \"one.pfm\"\n";
     for (const KeySpec& key : scene_schema_root().keys) {
         if (key.name == "material") expect_all_matter({base}, "material.main.", key.table->keys);
         if (key.name == "render" || key.name == "limits")
             expect_all_matter({base}, key.name + ".", key.table->keys);
-        if (key.name == "sky") expect_all_matter({base, under_suns}, "sky.", key.table->keys);
+        if (key.name == "sky") expect_all_matter({base, under_suns, panorama}, "sky.", key.table->keys);
         if (key.name == "output") expect_all_matter({base}, "output.0.", key.table->keys);
     }
 }

@@ -24,7 +24,7 @@ namespace obscura {
 /// Values to try for a key, in TOML: whatever its type allows.
 inline std::vector<std::string> candidates(const KeySpec& key) {
     static const std::map<std::string, std::vector<std::string>> special = {
-        {"file", {"\"other.obj\"", "\"other_####.png\"", "\"other.pgm\""}},
+        {"file", {"\"other.obj\"", "\"other_####.png\"", "\"other.pgm\"", "\"other.pfm\""}},
         {"mask", {"\"other.pgm\""}},
         {"texture", {"\"other.png\""}},
         {"cache", {"\"maps\""}},
@@ -99,6 +99,8 @@ class SceneKeyProbe : public testing::Test {
         write("other.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         write("one.pgm", "P2 2 1 3 1 3");
         write("other.pgm", "P2 2 1 3 3 2");
+        write("one.pfm", encode_pfm(Image<Vec3f>(4, 2, Vec3f{1, 2, 3}).view()));
+        write("other.pfm", encode_pfm(Image<Vec3f>(4, 2, Vec3f{3, 2, 1}).view()));
         write("one.png", encode_png(Image<Rgb8>(2, 2, Rgb8{10, 20, 30}).view()));
         write("other.png", encode_png(Image<Rgb8>(2, 2, Rgb8{40, 20, 30}).view()));
     }
