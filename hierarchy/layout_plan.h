@@ -30,6 +30,7 @@ using KindWord = std::conditional_t<children == 4, std::uint8_t, std::uint16_t>;
 /// so that the inner children of consecutive nodes are consecutive one height below. The root counts as an
 /// inner node, and above it stands a parent whose one child it is.
 template <int children>
+// NOLINTNEXTLINE(bugprone-reserved-identifier): of copies of its arrays, which the compiler names
 struct TreeShapeOf {
     int levels = 0;
     std::vector<KindWord<children>> kinds[max_tree_levels + 2];
@@ -90,6 +91,7 @@ ScaleChoice best_scale(const KindUnits& units, std::span<const KindWord<children
                        std::span<const std::uint32_t> blocks, std::uint32_t max_offset,
                        BlockOrder order = BlockOrder::smallest_first);
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): of copies of its arrays, which the compiler names
 struct LayoutPlan {
     std::uint32_t scale[max_tree_levels + 1] = {};
     std::vector<std::uint32_t> blocks[max_tree_levels + 2];  ///< units, for each byte of TreeShape::kinds

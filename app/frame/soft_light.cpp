@@ -61,7 +61,10 @@ class Pass {
     Pass(const TileScene& tiles, const SoftLight& soft, int stratum, int begin, int count)
         : light_(soft), tiles_(dark(tiles)) {
         const int m = strata(soft, tiles), of_sample = static_cast<int>(soft.points.size()) / m;
-        const auto at = [&](int i) { return static_cast<std::size_t>(stratum + i * m); };
+        const auto at = [&](int i) {
+            const int point = stratum + i * m;
+            return static_cast<std::size_t>(point);
+        };
         const auto point = [&](int i) -> const Light& { return soft.points[at(i)]; };
         for (int i = begin; i < begin + count; ++i) {
             points_.push_back(point(i));

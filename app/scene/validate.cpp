@@ -328,6 +328,7 @@ const VariantSpec* raw_variant(const SceneTable& raw, const Place& place, const 
         }
     }
     std::vector<std::string> names;
+    names.reserve(known.size());
     for (const KeySpec* key : known)
         names.push_back(key->name);
     const std::string where = spec.path.empty() ? "" : " in " + spec.path;

@@ -99,12 +99,14 @@ std::vector<std::size_t> hilbert_order(const std::vector<Vec2d>& places) {
         return static_cast<std::uint32_t>(std::clamp(offset / extent, 0.0, 1.0) * ((1 << order) - 1));
     };
     std::vector<std::pair<std::uint64_t, std::size_t>> numbered;
+    numbered.reserve(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
         const Vec2d d{places[i].x - low.x, places[i].y - low.y};
         numbered.emplace_back(hilbert_number(order, cell(d.x), cell(d.y)), i);
     }
     std::sort(numbered.begin(), numbered.end());
     std::vector<std::size_t> sorted;
+    sorted.reserve(numbered.size());
     for (const auto& [number, i] : numbered)
         sorted.push_back(i);
     return sorted;

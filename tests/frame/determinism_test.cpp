@@ -125,11 +125,11 @@ TEST(FrameDeterminism, CropIsPartOfTheWhole) {
 }
 
 TEST(FrameDeterminism, HoursOfSunAreThoseOfTheWhole) {
-    Scene scene = everything(4);
+    Scene scene = everything(1);
     SceneLight& sun = scene.lights.emplace_back();
     sun.light.kind = LightKind::sun;
     sun.light.below_horizon = true;
-    sun.light.path = SunPath{2026, 6, 21, 1, 0, 24, 48.2, 15, 24};
+    sun.light.path = SunPath{2026, 6, 21, 1, 0, 24, 48.2, 15, 3};
     FrameOptions options;
     options.sun_hours = true;
     const Frame whole = render_frame(scene, options, {Isa::ref, 1});
@@ -139,6 +139,8 @@ TEST(FrameDeterminism, HoursOfSunAreThoseOfTheWhole) {
         scene.optics.enabled = lens;
         for (const Isa isa : supported_isas()) {
             for (const int threads : {1, 3}) {
+                // The scalar reference asks every triangle: it has drawn the whole.
+                if (isa == Isa::ref) continue;
                 const Frame part = render_frame(scene, options, {isa, threads});
                 ASSERT_EQ(part.sun_hours.width, 101);
                 ASSERT_EQ(part.sun_hours.height, 77);
