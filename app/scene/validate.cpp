@@ -327,10 +327,8 @@ const VariantSpec* raw_variant(const SceneTable& raw, const Place& place, const 
                                 spec.discriminator, variant->name));
         }
     }
-    std::vector<std::string> names;
-    names.reserve(known.size());
-    for (const KeySpec* key : known)
-        names.push_back(key->name);
+    std::vector<std::string> names(known.size());
+    std::transform(known.begin(), known.end(), names.begin(), [](const KeySpec* key) { return key->name; });
     const std::string where = spec.path.empty() ? "" : " in " + spec.path;
     fail_at(entry.place, sources, fmt::format("unknown key '{}'{}{}", shown, where, hint(entry.key, names)));
 }

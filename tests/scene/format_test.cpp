@@ -17,10 +17,10 @@
 #include "app/scene/keys.h"
 #include "app/scene/shapes.h"
 #include "app/scene/toml_text.h"
-#include "core/sky/image_sky.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/image_io.h"
+#include "core/sky/image_sky.h"
 #include "tests/scene/key_probe.h"
 
 namespace obscura {
