@@ -141,7 +141,8 @@ std::int64_t sun_hours_tiles_bytes(const MeshSize& mesh, int steps) {
 }
 
 std::int64_t sun_hours_sums_bytes(const RenderSettings& render) {
-    return std::int64_t{render.width} * render.height * (sizeof(double) + sizeof(std::uint8_t));
+    constexpr std::int64_t pixel = sizeof(double) + sizeof(std::uint8_t);
+    return std::int64_t{render.width} * render.height * pixel;
 }
 
 int shadow_map_count(const SceneLight& light) {
