@@ -322,21 +322,28 @@ SurfaceLight surface_light(const Scene& scene, const FrameSky& sky, const Exec& 
     return Exchange(scene, sky, exec, cancel).run();
 }
 
+namespace {
+
+/// How many patches are expected: both sides of what is large, and a quarter of all triangles, since small
+/// ones share theirs.
+std::int64_t expected_patches(const MeshSize& mesh, int sides) {
+    return sides * surface_cells + mesh.triangles / 4;
+}
+
+}  // namespace
+
 std::int64_t surface_light_bytes(const MeshSize& mesh) {
-    // Both sides of everything.
-    const std::int64_t patches = 2 * (surface_cells + mesh.triangles);
-    return patches *
+    return expected_patches(mesh, 2) *
                (SurfaceLight::levels * std::int64_t{sizeof(Vec3f)} + std::int64_t{sizeof(SurfacePatch)}) +
            mesh.triangles * std::int64_t{sizeof(TrianglePatches)};
 }
 
 std::int64_t surface_light_work_bytes(const MeshSize& mesh) {
-    const std::int64_t patches = 2 * (surface_cells + mesh.triangles);
     constexpr std::int64_t point = 3 * sizeof(double) + 3 * sizeof(float) + 3 * sizeof(std::uint32_t);
     // Light that arrives, twice, what was sent before, and of a mean the corners around each patch: their
-    // places and shares, and up to four corners of its own, which grow by doubling.
-    return patches * (point + (2 + SurfaceLight::levels) * std::int64_t{sizeof(Vec3f)} +
-                      std::int64_t{sizeof(BlurPatch)} + 64 + 4 * 2 * 56);
+    // places and shares, and one corner of its own, which grow by doubling.
+    return expected_patches(mesh, 1) * (point + (2 + SurfaceLight::levels) * std::int64_t{sizeof(Vec3f)} +
+                                        std::int64_t{sizeof(BlurPatch)} + 64 + 2 * 56);
 }
 
 }  // namespace obscura

@@ -48,7 +48,7 @@ Vec3f sent_radiance(const Mesh& mesh, const SurfaceLight& light, std::uint32_t t
 SurfaceLight surface_light(const Scene& scene, const FrameSky& sky, const Exec& exec,
                            const std::atomic<bool>* cancel);
 
-/// Bytes of the result, and of what making it takes beside it and one light's casters; bounds.
+/// Bytes of the result, and of what making it takes beside it and one light's casters: expected.
 std::int64_t surface_light_bytes(const MeshSize& mesh);
 std::int64_t surface_light_work_bytes(const MeshSize& mesh);
 
