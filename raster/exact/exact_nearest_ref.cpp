@@ -15,14 +15,7 @@ void exact_unlit(const ExactPoints& points, const ExactLight& light, const std::
     for (int at = 0; at < points.count; ++at) {
         if ((lit[at / 16] >> (at % 16) & 1u) != 0) continue;
         const Question q = question(points, light, at);
-        if (!q.looks) continue;
-        const std::int32_t i = samples.count++;
-        samples.x[i] = q.place.x;
-        samples.y[i] = q.place.y;
-        samples.z[i] = q.place.z;
-        samples.rounding[i] = q.place.rounding;
-        samples.point[i] = static_cast<std::uint32_t>(at);
-        samples.view[i] = static_cast<std::uint8_t>(q.view);
+        if (q.looks) add_sample(q, samples);
     }
 }
 

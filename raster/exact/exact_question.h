@@ -24,6 +24,9 @@ struct Question {
 };
 Question question(const ExactPoints& points, const ExactLight& light, int at);
 
+/// Adds the place of a question that looks.
+void add_sample(const Question& q, ExactSamples& samples);
+
 /// Whether a triangle, whose nearest depth is z_low, darkens a sample.
 bool darkens(const CasterTriangle& t, float z_low, const ExactLight& light, const ExactPoints& points,
              const Place& s);

@@ -35,7 +35,7 @@ OBSCURA_INLINE float distance_before(const CasterTriangle& t, float z_low, const
 
 void exact_reach(const ExactPoints& points, const ExactLight& middle, const ExactSpread& spread,
                  ExactSamples& samples) noexcept {
-    std::int32_t n = 0;
+    samples.count = 0;
     for (std::int32_t at = 0; at < points.count; at += lanes) {
         if (points.covered[at / 16] == 0) continue;
         const Receivers r = receivers(points, middle, at);
@@ -49,24 +49,9 @@ void exact_reach(const ExactPoints& points, const ExactLight& middle, const Exac
             if (left == 0) continue;
             const Located place = located(middle, middle.view[v], r.x, r.y, r.z, r.p, r.g, exact_beyond);
             if (!middle.directional) left &= place.looks;
-            alignas(64) std::int32_t x[16], y[16];
-            alignas(64) float z[16], rounding[16];
-            store(x, place.x);
-            store(y, place.y);
-            store(z, place.z);
-            store(rounding, place.rounding);
-            for (; left != 0; left &= left - 1, ++n) {
-                const int k = __builtin_ctz(left);
-                samples.x[n] = x[k];
-                samples.y[n] = y[k];
-                samples.z[n] = z[k];
-                samples.rounding[n] = rounding[k];
-                samples.point[n] = static_cast<std::uint32_t>(at + k);
-                samples.view[n] = static_cast<std::uint8_t>(v);
-            }
+            add_samples(place, at, left, v, samples);
         }
     }
-    samples.count = n;
 }
 
 void exact_widest(const ExactPoints& points, const ExactLight& middle, const ExactSpread& spread,

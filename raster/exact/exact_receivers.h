@@ -45,6 +45,27 @@ OBSCURA_INLINE Located located(const ExactLight& light, const ExactView& view, c
     return to;
 }
 
+/// Adds the lanes `left` of sixteen points, from point `at` on, to the samples.
+OBSCURA_INLINE void add_samples(const Located& place, std::int32_t at, std::uint32_t left, std::int32_t view,
+                                ExactSamples& samples) {
+    alignas(64) std::int32_t x[16], y[16];
+    alignas(64) float z[16], rounding[16];
+    store(x, place.x);
+    store(y, place.y);
+    store(z, place.z);
+    store(rounding, place.rounding);
+    for (; left != 0; left &= left - 1) {
+        const int k = __builtin_ctz(left);
+        const std::int32_t n = samples.count++;
+        samples.x[n] = x[k];
+        samples.y[n] = y[k];
+        samples.z[n] = z[k];
+        samples.rounding[n] = rounding[k];
+        samples.point[n] = static_cast<std::uint32_t>(at + k);
+        samples.view[n] = static_cast<std::uint8_t>(view);
+    }
+}
+
 /// Sixteen points as a bunch of a view, of which `open` lanes ask.
 OBSCURA_INLINE void fill_bunch(const ExactPoints& points, const ExactLight& light, const Located& place,
                                std::int32_t at, std::uint32_t open, Bunch& to) {

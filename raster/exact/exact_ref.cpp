@@ -137,6 +137,16 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
     return q;
 }
 
+void add_sample(const Question& q, ExactSamples& samples) {
+    const std::int32_t i = samples.count++;
+    samples.x[i] = q.place.x;
+    samples.y[i] = q.place.y;
+    samples.z[i] = q.place.z;
+    samples.rounding[i] = q.place.rounding;
+    samples.point[i] = static_cast<std::uint32_t>(q.place.point);
+    samples.view[i] = static_cast<std::uint8_t>(q.view);
+}
+
 void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,
                   std::uint32_t* lit, ExactCounts& /*counts*/) noexcept {
     samples.count = 0;
@@ -144,14 +154,7 @@ void exact_locate(const ExactPoints& points, const ExactLight& light, ExactSampl
         if (at % 16 == 0) lit[at / 16] = 0;
         const Question q = question(points, light, at);
         if (q.asks) lit[at / 16] |= 1u << (at % 16);
-        if (!q.looks) continue;
-        const std::int32_t i = samples.count++;
-        samples.x[i] = q.place.x;
-        samples.y[i] = q.place.y;
-        samples.z[i] = q.place.z;
-        samples.rounding[i] = q.place.rounding;
-        samples.point[i] = static_cast<std::uint32_t>(at);
-        samples.view[i] = static_cast<std::uint8_t>(q.view);
+        if (q.looks) add_sample(q, samples);
     }
 }
 
