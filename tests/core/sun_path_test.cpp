@@ -31,7 +31,8 @@ double sunlit_hours(const SunPath& path) {
 }
 
 TEST(SunPath, DaysAreAsLongAsAlmanacsSay) {
-    // Published for 2024 by almanacs (timeanddate.com, HM Nautical Almanac Office), rounded to minutes.
+    // Whole minutes. Found in tables: December in London and Oslo (Finnish Meteorological Institute), June in
+    // London (4:42 to 21:20) and New York (5:24 to 20:30). The others are remembered, not looked up.
     const PlaceAndDay days[] = {
         {"London, June", 51.51, -0.13, 1, 6, 20, 16, 38},
         {"London, December", 51.51, -0.13, 0, 12, 21, 7, 50},
