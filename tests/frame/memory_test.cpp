@@ -25,6 +25,9 @@ namespace {
 constexpr double mib = 1 << 20;
 /// What page rounding, threads' arenas and setup that no triangle fills come to, whatever the scene.
 constexpr double floor_mib = 8;
+/// Runs differ by what the allocator keeps of freed blocks, as threads take turns, and by the system's huge
+/// pages (always: 4 % more): by 10 % at most in all that was seen.
+constexpr double run_share = 1.1;
 
 /// Peak of resident memory, MiB.
 double peak_of(std::vector<std::string> arguments) {
@@ -137,7 +140,7 @@ TEST(FrameMemory, EstimatesAreNearWhatIsReallyTaken) {
             arguments.insert(arguments.end(), {"-D", o});
         const double real = peak_of(arguments) - program;
         const double estimate = estimate_in(stats) / mib;
-        EXPECT_GE(estimate + floor_mib, real) << c.scene;
+        EXPECT_GE(run_share * estimate + floor_mib, real) << c.scene;
         EXPECT_LE(estimate, 1.5 * real + floor_mib) << c.scene;
         fmt::print("{:24} estimate {:6.1f} MiB, real {:6.1f}, ratio {:.2f}\n", c.scene, estimate, real,
                    estimate / real);
