@@ -216,8 +216,8 @@ class Exchange {
                 ExactWork work(static_cast<std::size_t>(part.count));
                 ExactCounts counts;
                 std::vector<std::uint32_t> lit(part.covered, part.covered + part.count / 16);
-                if (asked.shadows) work.shadows(part, exact, exec_.isa, lit.data(), counts);
                 if (sent == nullptr) {
+                    if (asked.shadows) work.shadows(part, exact, exec_.isa, lit.data(), counts);
                     add_light(points, asked.light, lit, begin, end, arriving);
                 } else {
                     std::vector<std::uint32_t> triangle(static_cast<std::size_t>(part.count), no_triangle);

@@ -36,7 +36,9 @@ Hits hits_of(const ExactPoints& points, const ExactLight& light, Isa isa) {
     std::vector<std::uint32_t> lit(count / 16);
     work.shadows(points, light, isa, lit.data(), counts);
     Hits hits(count);
-    work.nearest(points, light, isa, lit.data(), hits.view(), counts);
+    std::vector<std::uint32_t> lit_beside(count / 16, 0xaaaau);
+    work.nearest(points, light, isa, lit_beside.data(), hits.view(), counts);
+    EXPECT_EQ(lit_beside, lit) << isa_name(isa);
     return hits;
 }
 
