@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/frame/light_shadow_stats.h"
+#include "app/glare/lit_picture.h"
 #include "core/buffer.h"
 #include "core/image.h"
 #include "core/sun_path.h"
@@ -28,24 +29,6 @@ struct FrameOptions {
     std::function<void(double)> progress;
     const std::atomic<bool>* cancel = nullptr;  ///< set it and the remaining tiles, of shadow
                                                 ///< maps too, are left out
-};
-
-/// Glare of a frame whose scene has a lens.
-struct GlareStats {
-    double total_s = 0;                   ///< all of it, the next included
-    double psf_s = 0;                     ///< the lens's patterns; 0 when kept
-    bool kept = false;                    ///< patterns of an earlier frame served
-    bool fft = false;                     ///< else splats
-    int margin_px = 0;                    ///< rendered on every side for its light, and cropped
-    std::int64_t sources = 0;             ///< pixels that clipped, the margin's too
-    int kernels = 0;                      ///< patterns: of the open lens, and of sources with their own
-    std::int64_t own_kernel_sources = 0;  ///< pixels that see the lens partly hidden, or are out of focus
-    int wavelengths = 0;
-    double cycles_per_px = 0;     ///< cycles of the pupil's diameter, at the mean wavelength
-    double captured = 0;          ///< share of the light that the kernel's square catches
-    double spread = 0, lost = 0;  ///< shares of the sources' light: left its pixel, left the margin, too
-    double blocked = 0;           ///< share that what stands before the lens keeps from it
-    std::string reason;
 };
 
 /// Hours of direct sun, when they were wanted.
@@ -91,8 +74,6 @@ struct FrameStats {
     std::vector<std::string> notices;        ///< what happened that one would want to know: caches made again
 };
 
-constexpr std::uint32_t no_object = 0xffffffffu;
-
 /// Pixels of the crop; channels that were not wanted are empty.
 struct Frame {
     int x0 = 0, y0 = 0;  ///< the crop's corner in the whole picture
@@ -114,9 +95,6 @@ struct Frame {
         lens_offset_m;  ///< where the picture's lens is, from the camera's eye: that of the eye that sees it
     bool complete = false;  ///< false: cancelled
     FrameStats stats;
-    double shift_at(int x, int y) const {
-        return shift_px.width > 0 ? static_cast<double>(shift_px(x, y)) : 0.0;
-    }
 };
 
 }  // namespace obscura

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "app/frame/glare_margin.h"
-#include "app/frame/glare_memory.h"
-#include "app/frame/lamp_pixels.h"
 #include "app/frame/shadow_memory.h"
 #include "app/frame/sun_hours.h"
 #include "app/frame/tile.h"
+#include "app/glare/glare_margin.h"
+#include "app/glare/glare_memory.h"
+#include "app/glare/lamp_pixels.h"
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/shapes.h"

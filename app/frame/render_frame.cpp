@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
-#include "app/frame/glare_margin.h"
+#include "app/frame/frame_glare.h"
 #include "app/frame/memory.h"
 #include "app/frame/shadows.h"
-#include "app/frame/source_kernels.h"
 #include "app/frame/sun_hours.h"
 #include "app/frame/tiles.h"
+#include "app/glare/glare_margin.h"
+#include "app/glare/source_kernels.h"
 #include "core/mesh_memory.h"
 #include "core/stopwatch.h"
 #include "raster/lighting.h"

@@ -6,10 +6,10 @@
 
 #include "app/frame/frame.h"
 #include "app/frame/frame_sky.h"
-#include "app/frame/glare.h"
 #include "app/frame/light_shadow.h"
 #include "app/frame/surface_light.h"
 #include "app/frame/tile.h"
+#include "app/glare/glare.h"
 #include "app/scene/file_access.h"
 #include "app/scene/scene.h"
 #include "core/isa.h"

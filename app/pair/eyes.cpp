@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "app/frame/glare_margin.h"
 #include "app/frame/shadows.h"
 #include "app/frame/tiles.h"
+#include "app/glare/glare_margin.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "app/frame/glare_margin.h"
 #include "app/frame/tile.h"
+#include "app/glare/glare_margin.h"
 #include "app/pair/pair.h"
 #include "core/mesh_memory.h"
 #include "raster/setup_memory.h"

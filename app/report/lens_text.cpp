@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "app/frame/glare_margin.h"
-#include "app/frame/lens.h"
+#include "app/glare/glare_margin.h"
+#include "app/glare/lens.h"
 #include "core/count_text.h"
 #include "core/stopwatch.h"
 #include "optics/aperture_dirt.h"

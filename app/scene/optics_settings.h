@@ -12,7 +12,7 @@ namespace obscura {
 /// scene hides of it from the light; `neighbours`: less the pixels around the source that do not glare.
 enum class PupilVisibility { open, exact, neighbours };
 
-/// As many pixels as the lens and what is bright need (app/frame/glare_margin.h).
+/// As many pixels as the lens and what is bright need (app/glare/glare_margin.h).
 constexpr int auto_glare_margin = -1;
 
 /// The camera's lens as far as it diffracts. A pinhole's picture is taken; what this adds is glare.

@@ -81,7 +81,8 @@ MethodJob kept_tables(FarRun& run, const std::shared_ptr<NaturalTransform>& tabl
     return job;
 }
 
-MethodJob peer_job(FarRun& run, const DiffractionRow& row, std::function<void(float*)> peer, float scale) {
+MethodJob peer_job(FarRun& run, const DiffractionRow& row, const std::function<void(float*)>& peer,
+                   float scale) {
     MethodJob job;
     job.row = row;
     job.row.peer = true;

@@ -83,11 +83,11 @@ std::string panel_script(const PanelChart& chart) {
     for (int i = 0; i < count; ++i) {
         const Panel& panel = chart.panels[static_cast<std::size_t>(i)];
         const std::string y_label = panel.y_label.empty() && i % columns == 0 ? chart.y_label : panel.y_label;
+        const int column = i % columns, row = i / columns;
         const bool names_x = !chart.one_key || i + columns >= count;
-        script +=
-            fmt::format("set origin {:.4f},{:.4f}\nset size {:.4f},{:.4f}\nset title {} offset 0,-0.6\n",
-                        (i % columns) * cell_w, 1 - top - (i / columns + 1) * cell_h, cell_w, cell_h,
-                        gnuplot_text(panel.title));
+        script += fmt::format(
+            "set origin {:.4f},{:.4f}\nset size {:.4f},{:.4f}\nset title {} offset 0,-0.6\n", column * cell_w,
+            1 - top - (row + 1) * cell_h, cell_w, cell_h, gnuplot_text(panel.title));
         script += fmt::format("set xlabel {} offset 0,0.4\nset ylabel {} offset 1,0\n",
                               gnuplot_text(names_x ? chart.x_label : ""), gnuplot_text(y_label));
         if (chart.one_key && i == columns) script += "unset key\n";

@@ -82,7 +82,9 @@ void IntervalMap(benchmark::State& state, const std::string& name) {
 
 void add(const std::string& stage, void (*run)(benchmark::State&, const std::string&)) {
     for (const std::string scene : {"city", "bigcity", "town", "bunny", "bunny8"}) {
-        benchmark::RegisterBenchmark((stage + "/" + scene).c_str(), run, scene)
+        std::string name = stage;
+        name.append("/").append(scene);
+        benchmark::RegisterBenchmark(name.c_str(), run, scene)
             ->Arg(1)
             ->Arg(2)
             ->Unit(benchmark::kMillisecond)

@@ -181,7 +181,8 @@ void add_tree_benchmarks() {
                 ->Unit(benchmark::kMillisecond);
         }
     }
-    const auto add = [](const char* name, void (*run)(benchmark::State&), std::vector<std::int64_t> args) {
+    const auto add = [](const char* name, void (*run)(benchmark::State&),
+                        const std::vector<std::int64_t>& args) {
         benchmark::RegisterBenchmark(name, run)->Args(args)->Unit(benchmark::kMillisecond);
     };
     for (const int side : {1, 3, 5}) {

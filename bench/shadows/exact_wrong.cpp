@@ -44,8 +44,9 @@ class WrongSample {
         place_ = seen_point(*scene_.mesh, triangle_, given_);
         const std::size_t pixel = scene_.points->pixel(block, at);
         const auto width = static_cast<std::size_t>(scene_.points->width);
+        const std::size_t row = pixel / width;
         x_ = static_cast<double>(pixel % width) + 0.5;
-        y_ = static_cast<double>(pixel / width) + 0.5;
+        y_ = static_cast<double>(row) + 0.5;
         const float reach = std::fabs(dot(p, Vec3f{s.gx[at], s.gy[at], s.gz[at]}));
         uncertain_m_ = static_cast<double>(exact_depth_error * reach) + step_m();
     }
@@ -68,7 +69,8 @@ class WrongSample {
         const Vec3d apart = std::fabs(scene_.to_light.y) < 0.7 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
         const Vec3d u = normalize(cross(scene_.to_light, apart)), v = cross(scene_.to_light, u);
         for (int side = 0; side < 9; ++side) {
-            const double i = side % 3 - 1, j = side / 3 - 1;
+            const int row = side / 3 - 1;
+            const double i = side % 3 - 1, j = row;
             if (side == 4) continue;
             const Vec3d on_picture = seen_at(camera_, x_ + i / 256, y_ + j / 256, plane(), place_);
             if (rays_say(on_picture, shown) || rays_say(place_ + (u * i + v * j) * step_m(), shown))

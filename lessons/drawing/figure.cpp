@@ -13,7 +13,7 @@ namespace {
 
 /// Rounds by truncation: what is converted is never negative.
 std::uint8_t mix_code(std::uint8_t a, std::uint8_t b, double share) {
-    return static_cast<std::uint8_t>(a + (b - a) * share + 0.5);
+    return static_cast<std::uint8_t>(std::floor(a + (b - a) * share + 0.5));
 }
 
 double distance_squared(Vec2d p, Vec2d a, Vec2d b) {

@@ -106,35 +106,37 @@ TEST_P(TreePcf, EqualsTheDenseMapAtEveryAlignmentAndBorder) {
 
 INSTANTIATE_TEST_SUITE_P(DenseKernels, TreePcf, testing::Values(1, 3, 5));
 
-TEST(TreePcfKernels, OfAnyOddSideAreTheMeanOfTheirTaps) {
-    for (const int side : {7, 9, 11, 13, 15}) {
-        const ChosenMap m = chosen_map(32, 9);
-        const ShadowTree tree = encode_tree(m.tree, {});
-        PcfLight light = chosen::light_above(32, side, true);
-        light.view[0].tree = &tree.code;
-        const std::vector<SurfaceBlock> blocks =
-            chosen::blocks_at(chosen::places_everywhere(32, 5), 0.01f, 6);
-        const Visibility expected = visibility_of(
-            blocks, [&](const SurfaceBlock& s, float* v) { ref::naive_tree_pcf_block(s, light, v); });
-        EXPECT_GT(between_light_and_dark(expected), 500);
-        EXPECT_GT(std::count(expected.begin(), expected.end(), 1.0f), 100);
-        expect_all(blocks, light, expected, "side " + std::to_string(side));
-        // The definition itself, of a level receiver: the box of side - 1 texels around it.
-        const Visibility level = by_map(chosen::blocks_at({{16.25f, 15.5f, 0.6f}}, 0, 1), light);
-        double sum = 0, weights = 0;
-        for (int j = 0; j < side; ++j) {
-            for (int i = 0; i < side; ++i) {
-                const int reach = side / 2, x = 16 + i - reach, y = 15 + j - reach;
-                const double wx = i == 0 ? 0.75 : (i == side - 1 ? 0.25 : 1),
-                             wy = j == 0 || j == side - 1 ? 0.5 : 1;
-                weights += wx * wy;
-                sum += m.map.at(x, y) >= 0.6f ? wx * wy : 0;
-            }
+class TreePcfKernels : public testing::TestWithParam<int> {};
+
+TEST_P(TreePcfKernels, OfAnyOddSideAreTheMeanOfTheirTaps) {
+    const int side = GetParam();
+    const ChosenMap m = chosen_map(32, 9);
+    const ShadowTree tree = encode_tree(m.tree, {});
+    PcfLight light = chosen::light_above(32, side, true);
+    light.view[0].tree = &tree.code;
+    const std::vector<SurfaceBlock> blocks = chosen::blocks_at(chosen::places_everywhere(32, 5), 0.01f, 6);
+    const Visibility expected = visibility_of(
+        blocks, [&](const SurfaceBlock& s, float* v) { ref::naive_tree_pcf_block(s, light, v); });
+    EXPECT_GT(between_light_and_dark(expected), 500);
+    EXPECT_GT(std::count(expected.begin(), expected.end(), 1.0f), 100);
+    expect_all(blocks, light, expected, "side " + std::to_string(side));
+    // The definition itself, of a level receiver: the box of side - 1 texels around it.
+    const Visibility level = by_map(chosen::blocks_at({{16.25f, 15.5f, 0.6f}}, 0, 1), light);
+    double sum = 0, weights = 0;
+    for (int j = 0; j < side; ++j) {
+        for (int i = 0; i < side; ++i) {
+            const int reach = side / 2, x = 16 + i - reach, y = 15 + j - reach;
+            const double wx = i == 0 ? 0.75 : (i == side - 1 ? 0.25 : 1),
+                         wy = j == 0 || j == side - 1 ? 0.5 : 1;
+            weights += wx * wy;
+            sum += m.map.at(x, y) >= 0.6f ? wx * wy : 0;
         }
-        EXPECT_EQ(weights, (side - 1.0) * (side - 1));
-        EXPECT_NEAR(static_cast<double>(level[0]), sum / weights, 1e-6);
     }
+    EXPECT_EQ(weights, (side - 1.0) * (side - 1));
+    EXPECT_NEAR(static_cast<double>(level[0]), sum / weights, 1e-6);
 }
+
+INSTANTIATE_TEST_SUITE_P(Sides, TreePcfKernels, testing::Values(7, 9, 11, 13, 15));
 
 /// Surfaces of a picture, four rows at a time.
 std::vector<SurfaceBlock> surfaces_of(const Scene& scene) {

@@ -157,7 +157,8 @@ TEST(SoftLight, SamePictureOnEveryIsaThreadCountAndCrop) {
         const Frame whole = render_frame(scene, all_channels(), {samples == 1 ? Isa::ref : Isa::sse2, 1});
         for (const Isa isa : supported_isas()) {
             for (const int threads : {1, 3}) {
-                if (isa == Isa::ref) continue;
+                // Every kernel with three threads, the fastest by itself, too.
+                if (isa == Isa::ref || (threads == 1 && isa != best_isa())) continue;
                 const Frame other = render_frame(scene, all_channels(), {isa, threads});
                 EXPECT_EQ(hash(other), hash(whole)) << isa_name(isa);
                 EXPECT_EQ(other.shadow.pixels, whole.shadow.pixels) << isa_name(isa);

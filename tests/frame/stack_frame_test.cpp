@@ -124,6 +124,8 @@ TEST(StackFrame, SamePictureOnEveryIsaThreadCountAndCrop) {
         const Frame whole = render_frame(scene, all_channels(), {samples == 1 ? Isa::ref : Isa::sse2, 1});
         for (const Isa isa : supported_isas()) {
             for (const int threads : {1, 3}) {
+                // Every kernel with three threads, the fastest by itself, too.
+                if (threads == 1 && isa != best_isa()) continue;
                 const Frame other = render_frame(scene, all_channels(), {isa, threads});
                 EXPECT_EQ(hash(other), hash(whole)) << isa_name(isa);
                 EXPECT_EQ(other.shadow.pixels, whole.shadow.pixels) << isa_name(isa);

@@ -183,7 +183,6 @@ TEST_P(ShadowData, EveryTexelDecodesToADepthOfItsInterval) {
     check_every_texel(*scene, 1024, Receivers::static_only);
     check_samples(*scene, 1 << 20, false, 60);
     if (!slow_tests()) return;
-    check_every_texel(*scene, 4096, Receivers::any);
     check_every_texel(*scene, 4096, Receivers::static_only);
     check_every_texel(*scene, 8192, Receivers::any);
     // 10^8 samples over the eight scenes.

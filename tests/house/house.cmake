@@ -54,19 +54,18 @@ house_test(slow_names ${here}/slow_names.sh ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_D
 house_test(launcher ${here}/launcher_test.sh ${CMAKE_SOURCE_DIR})
 house_test(install ${here}/install_test.sh ${CMAKE_COMMAND} ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR})
 
-# Debug and clang++ builds render the same bytes.
+# A clang++ build renders the same bytes.
 slow_house_test(other_builds ${here}/determinism_builds.sh ${CMAKE_BINARY_DIR} ${other_builds})
 
-# No report from the address and undefined-behaviour sanitizers.
+# No report from the address and undefined-behaviour sanitizers; and Debug has the golden pictures.
 slow_house_test(sanitizers ${here}/sanitizers.sh ${CMAKE_SOURCE_DIR} ${other_builds}/sanitizers
   ${CMAKE_BINARY_DIR})
 house_test(sanitizers_find_violations ${here}/sanitizers.sh ${CMAKE_SOURCE_DIR} ${other_builds}/sanitizers self-test)
 
-# Clang-tidy's rules hold: in core, raster, hierarchy and filters as a whole, in the other rooms where something
-# changed. And every file names the headers it needs, whatever the precompiled ones bring. The number is the seconds
-# after which files are left out, those that have not changed lately first.
+# Clang-tidy's rules hold where something changed. And every file names the headers it needs, whatever the precompiled
+# ones bring. The number is the seconds after which files are left out, those that have not changed lately first.
 set(plain ${other_builds}/plain)
 slow_house_test(tidy ${here}/file_by_file.sh tidy ${plain} ${CMAKE_SOURCE_DIR} 120)
-slow_house_test(includes_stand_alone ${here}/file_by_file.sh includes ${plain} ${CMAKE_SOURCE_DIR} 120)
+slow_house_test(includes_stand_alone ${here}/file_by_file.sh includes ${plain} ${CMAKE_SOURCE_DIR} 60)
 set_tests_properties(House.includes_stand_alone PROPERTIES DEPENDS House.tidy)
 house_test(file_by_file_finds_violations ${here}/file_by_file.sh self-test ${CMAKE_CXX_COMPILER})

@@ -26,7 +26,8 @@ stereo           raster
 stereo/solver    stereo
 stereo/thesis    stereo/solver
 app/scene        core/sky optics stereo stereo/thesis scenes
-app/frame        app/scene raster/exact hierarchy/stack
+app/glare        app/scene
+app/frame        app/glare raster/exact hierarchy/stack
 app/pair         app/frame
 app/report       app/pair lessons/drawing
 app/cli          app/report

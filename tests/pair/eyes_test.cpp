@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/frame/frame_glare.h"
 #include "app/pair/middle.h"
 #include "tests/frame/stage.h"
 #include "tests/pair/eyes.h"

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/frame/stage.h"
+#include "tests/frame/undefined.h"
 #include "tests/pair/eyes.h"
 
 namespace obscura {
@@ -16,21 +17,6 @@ namespace {
 
 using namespace frame_scenes;
 using namespace stereo_eyes;
-
-/// Zeroes what the stage leaves undefined.
-void forget_undefined(SurfaceBlock& s) {
-    for (int at = 0; at < block_samples; ++at) {
-        const auto in = [&](const std::uint32_t* masks) { return (masks[at / 16] >> (at & 15) & 1u) != 0; };
-        if (!in(s.covered)) {
-            for (float* plane : {s.nx, s.ny, s.nz, s.gx, s.gy, s.gz})
-                plane[at] = 0;
-        }
-        if (!in(s.textured)) {
-            for (float* plane : {s.u, s.v, s.ux, s.vx, s.uy, s.vy})
-                plane[at] = 0;
-        }
-    }
-}
 
 /// Calls check(block) with the surfaces of each block of a picture, as one kernel has them.
 template <class Check>

@@ -36,13 +36,16 @@ Scene softly(Scene scene) {
     return exactly(std::move(scene));
 }
 
+/// Pixels of a picture of 200 x 130, or of the same one smaller.
 void expect_pictures_pixels(const Scene& scene) {
+    const int width = scene.render.width, height = scene.render.height;
     FrameCache cache;
     Frame frame;
     render_frame(scene, {}, {}, cache, frame);
     const Image<Rgb8> picture = tonemap(std::as_const(frame.radiance).view(), {}, {});
-    for (const auto& [x, y] :
+    for (const auto& [x_of_200, y_of_130] :
          {std::pair{0, 0}, {199, 129}, {60, 60}, {100, 40}, {130, 70}, {101, 100}, {95, 47}}) {
+        const int x = x_of_200 * width / 200, y = y_of_130 * height / 130;
         const PixelTrace trace = trace_pixel(scene, x, y, {}, cache);
         EXPECT_EQ(trace.radiance, pixel(frame, x, y)) << trace.text;
         EXPECT_EQ(trace.pixel, picture(x, y)) << trace.text;
@@ -57,8 +60,12 @@ TEST(PixelTrace, EndsAtThePicturesPixelBitForBit) {
 }
 
 TEST(PixelTrace, EndsThereWithLightsThatHaveASize) {
-    for (const int samples : {1, 4, 16})
-        expect_pictures_pixels(softly(everything(samples)));
+    for (const int samples : {1, 4, 16}) {
+        Scene scene = softly(everything(samples));
+        scene.render.width = 80;
+        scene.render.height = 52;
+        expect_pictures_pixels(scene);
+    }
 }
 
 /// The same out of stacks.

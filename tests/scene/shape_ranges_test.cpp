@@ -102,7 +102,7 @@ class ShapeRanges : public testing::TestWithParam<std::string> {};
 TEST_P(ShapeRanges, WhatTheRowsAllowIsMadeOrRefused) {
     const ShapeSpec& shape = *find_shape(GetParam());
     // Triangles are counted, so that the time is: what is made, and of it what is looked at.
-    const std::int64_t times = slow_tests() ? 50 : 1;
+    const std::int64_t times = slow_tests() ? 20 : 1;
     std::int64_t left_to_make = 60'000 * times, left_to_inspect = 20'000 * times;
     constexpr std::int64_t few = 3'000, many = 110'000;
     // A town is planned whole, however few its triangles.

@@ -1,4 +1,4 @@
-#include "app/frame/pupil_classes.h"
+#include "app/glare/pupil_classes.h"
 
 #include <cmath>
 

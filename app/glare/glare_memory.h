@@ -21,10 +21,8 @@ std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& ren
 /// (few stand behind something) visibility_samples each.
 std::int64_t expected_kernels(const OpticsSettings& optics, std::int64_t lamps);
 
-/// Throws LimitError when a frame with so many bright pixels does not fit the scene's limits.
-void check_bright_pixels(const Scene& scene, std::int64_t bright_px);
-
-/// Kernels that a frame may keep: as many more than expected as the scene's limits leave memory for.
-std::int64_t kernels_that_fit(const Scene& scene);
+/// Kernels that a picture may keep: as many more than expected as there is room for in `free_bytes`, what
+/// limits leave of memory beside all that is estimated.
+std::int64_t kernels_that_fit(const Scene& scene, std::int64_t free_bytes);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-#include "app/frame/lens.h"
+#include "app/glare/lens.h"
 
 #include <optional>
 

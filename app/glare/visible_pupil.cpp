@@ -1,4 +1,4 @@
-#include "app/frame/visible_pupil.h"
+#include "app/glare/visible_pupil.h"
 
 #include <algorithm>
 #include <array>

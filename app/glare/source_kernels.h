@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/frame/frame.h"
+#include "app/glare/lit_picture.h"
 #include "app/scene/scene.h"
 #include "optics/field/aperture.h"
 
@@ -29,9 +29,9 @@ std::uint16_t add_kernel(Image<Vec3f> kernel, SourceKernels& to);
 /// True when the scene asks for such kernels; they need the frame's depth (and object) channels.
 bool wants_source_kernels(const OpticsSettings& optics);
 
-/// The frame: radiance, depth_m and object of the whole picture with its margin. `clip`: radiance from which
-/// on pixels glare. `open`: the kernel of the lens in focus, each channel of sum 1.
-SourceKernels source_kernels(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
-                             const Image<Vec3f>& open, const Exec& exec);
+/// Of a picture that knows what its pixels show: adds to `to`, which has the kernel of the open lens in focus
+/// (each channel of sum 1), those of other sources, and chooses. `clip`: radiance from which on pixels glare.
+void add_source_kernels(const Scene& scene, const LitPicture& picture, double clip, const Aperture& aperture,
+                        const Exec& exec, SourceKernels& to);
 
 }  // namespace obscura

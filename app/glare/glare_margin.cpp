@@ -1,9 +1,9 @@
-#include "app/frame/glare_margin.h"
+#include "app/glare/glare_margin.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/frame/lens.h"
+#include "app/glare/lens.h"
 #include "core/error.h"
 #include "core/num.h"
 #include "core/sky/air.h"

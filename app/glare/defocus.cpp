@@ -1,12 +1,12 @@
-#include "app/frame/defocus.h"
+#include "app/glare/defocus.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-#include "app/frame/lamp_pixels.h"
-#include "app/frame/lens.h"
+#include "app/glare/lamp_pixels.h"
+#include "app/glare/lens.h"
 #include "optics/near_field_colour.h"
 
 namespace obscura {
@@ -29,12 +29,12 @@ struct BlurredPixel {
 };
 
 /// Pixels that clip and are out of focus, row by row.
-std::vector<BlurredPixel> blurred_pixels(const Scene& scene, const Frame& frame, double clip) {
+std::vector<BlurredPixel> blurred_pixels(const Scene& scene, const LitPicture& picture, double clip) {
     std::vector<BlurredPixel> blurred;
-    for (int y = 0; y < frame.height; ++y) {
-        for (int x = 0; x < frame.width; ++x) {
-            if (!clips(frame, x, y, clip)) continue;
-            const auto z = static_cast<double>(frame.depth_m(x, y));
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
+            if (!clips(picture, x, y, clip)) continue;
+            const auto z = static_cast<double>(picture.depth_m(x, y));
             const double vergence = (std::isfinite(z) ? 1 / z : 0.0) - 1 / scene.optics.focus_m;
             if (blur_px(scene.optics, scene.render, vergence) >= sharp_px)
                 blurred.push_back({x, y, vergence});
@@ -54,9 +54,9 @@ struct VergenceSteps {
 
 }  // namespace
 
-void add_defocus(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
+void add_defocus(const Scene& scene, const LitPicture& picture, double clip, const Aperture& aperture,
                  const Exec& exec, SourceKernels& to) {
-    const std::vector<BlurredPixel> blurred = blurred_pixels(scene, frame, clip);
+    const std::vector<BlurredPixel> blurred = blurred_pixels(scene, picture, clip);
     if (blurred.empty()) return;
     const auto [least, largest] = std::minmax_element(
         blurred.begin(), blurred.end(),

@@ -1,13 +1,13 @@
-#include "app/frame/hidden_lamps.h"
+#include "app/glare/hidden_lamps.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "app/frame/lamp_pixels.h"
-#include "app/frame/lens.h"
-#include "app/frame/pupil_classes.h"
-#include "app/frame/visible_pupil.h"
+#include "app/glare/lamp_pixels.h"
+#include "app/glare/lens.h"
+#include "app/glare/pupil_classes.h"
+#include "app/glare/visible_pupil.h"
 #include "core/parallel.h"
 #include "optics/aperture_extent.h"
 
@@ -19,8 +19,8 @@ static_assert(3 * sizeof(LampPixel) + 2 * sizeof(SeenShare) <= bytes_per_lamp_pi
 
 /// The cheap form (3.4.4): the square of pixels around the source stands for the pupil; what does not clip
 /// there hides it.
-Image<std::uint8_t> neighbour_pupil(const Frame& frame, const LampPixel& pixel, int radius_px, double clip,
-                                    int size) {
+Image<std::uint8_t> neighbour_pupil(const LitPicture& picture, const LampPixel& pixel, int radius_px,
+                                    double clip, int size) {
     Image<std::uint8_t> open(size, size, 1);
     for (int row = 0; row < size; ++row) {
         for (int column = 0; column < size; ++column) {
@@ -28,8 +28,8 @@ Image<std::uint8_t> neighbour_pupil(const Frame& frame, const LampPixel& pixel, 
                 return static_cast<int>(std::floor(((i + 0.5) / size - 0.5) * (2 * radius_px + 1) + 0.5));
             };
             const int x = pixel.x + offset(column), y = pixel.y + offset(row);
-            const bool inside = x >= 0 && y >= 0 && x < frame.width && y < frame.height;
-            if (inside && !clips(frame, x, y, clip)) open(column, row) = 0;
+            const bool inside = x >= 0 && y >= 0 && x < picture.width() && y < picture.height();
+            if (inside && !clips(picture, x, y, clip)) open(column, row) = 0;
         }
     }
     return open;
@@ -57,14 +57,14 @@ Image<Vec3f> dimmed(Image<Vec3f> kernel, double share) {
 
 class HiddenLamps {
   public:
-    HiddenLamps(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
+    HiddenLamps(const Scene& scene, const LitPicture& picture, double clip, const Aperture& aperture,
                 const Exec& exec)
         : scene_(scene),
-          frame_(frame),
+          picture_(picture),
           clip_(clip),
           aperture_(aperture),
           exec_(exec),
-          pupil_(pupil_plane(scene.camera, pupil_m(scene.optics), frame.lens_offset_m)),
+          pupil_(pupil_plane(scene.camera, pupil_m(scene.optics), picture.lens_offset_m)),
           survey_(survey_of(aperture.mask)) {}
 
     void add(const std::vector<LampPixel>& pixels, SourceKernels& to) const {
@@ -107,11 +107,11 @@ class HiddenLamps {
                                 int size) const {
         if (scene_.optics.visibility == PupilVisibility::exact)
             return visible_pupil(scene_.mesh, near, pupil_, pixel.point, size);
-        return neighbour_pupil(frame_, pixel, scene_.optics.neighbourhood_px, clip_, size);
+        return neighbour_pupil(picture_, pixel, scene_.optics.neighbourhood_px, clip_, size);
     }
 
     const Scene& scene_;
-    const Frame& frame_;
+    const LitPicture& picture_;
     double clip_;
     const Aperture& aperture_;
     const Exec& exec_;
@@ -121,10 +121,10 @@ class HiddenLamps {
 
 }  // namespace
 
-void add_hidden_lamps(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
+void add_hidden_lamps(const Scene& scene, const LitPicture& picture, double clip, const Aperture& aperture,
                       const Exec& exec, SourceKernels& to) {
-    const HiddenLamps hidden(scene, frame, clip, aperture, exec);
-    for (const auto& [object, pixels] : lamp_pixels(scene, frame, clip))
+    const HiddenLamps hidden(scene, picture, clip, aperture, exec);
+    for (const auto& [object, pixels] : lamp_pixels(scene, picture, clip))
         hidden.add(pixels, to);
 }
 

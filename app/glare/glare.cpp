@@ -1,11 +1,11 @@
-#include "app/frame/glare.h"
+#include "app/glare/glare.h"
 
 #include <algorithm>
 
-#include "app/frame/glare_margin.h"
-#include "app/frame/glare_memory.h"
-#include "app/frame/lens.h"
-#include "app/frame/source_kernels.h"
+#include "app/glare/glare_margin.h"
+#include "app/glare/glare_memory.h"
+#include "app/glare/lens.h"
+#include "app/glare/source_kernels.h"
 #include "core/stopwatch.h"
 
 namespace obscura {
@@ -39,8 +39,8 @@ std::int64_t count_bright(ImageView<const Vec3f> radiance, double clip) {
 
 struct Cancelled {};
 
-void prepare_psf(const Scene& scene, const FrameOptions& options, const Exec& exec,
-                 std::optional<KeptPsf>& kept, GlareStats& stats) {
+void prepare_psf(const Scene& scene, const GlareCall& call, const Exec& exec, std::optional<KeptPsf>& kept,
+                 GlareStats& stats) {
     const OpticsSettings lens = of_the_kernel(scene.optics);
     const double pixel = pixel_m(scene.optics, scene.render);
     stats.kept = kept && kept->lens == lens && kept->pixel_m == pixel;
@@ -48,66 +48,56 @@ void prepare_psf(const Scene& scene, const FrameOptions& options, const Exec& ex
     const Stopwatch watch;
     const Psf psf = far_field_psf(lens_aperture(scene.optics), psf_params(scene.optics, scene.render), exec,
                                   [&](double share) {
-                                      if (options.cancel && options.cancel->load(std::memory_order_relaxed))
+                                      if (call.cancel && call.cancel->load(std::memory_order_relaxed))
                                           throw Cancelled{};
-                                      if (options.progress) options.progress(share);
+                                      if (call.progress) call.progress(share);
                                   });
     kept = KeptPsf{
         lens, pixel, unit_kernel(psf.kernel), psf.plan.cycles_per_px, psf.captured, psf.plan.wavelengths};
     stats.psf_s = watch.seconds();
 }
 
-template <class Pixels>
-void crop_channel(const Region& crop, Pixels& channel) {
-    if (channel.width == 0) return;
-    Pixels part(crop.width, crop.height);
-    const auto from = std::as_const(channel).view().crop(crop.x0, crop.y0, crop.width, crop.height);
-    const auto to = part.view();
-    for (int y = 0; y < crop.height; ++y)
-        std::copy_n(from.row(y), crop.width, to.row(y));
-    channel = std::move(part);
-}
-
 }  // namespace
 
-void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec& exec,
-                     std::optional<KeptPsf>& kept, Frame& frame) {
-    if (!scene.optics.enabled) return;
+std::optional<GlareStats> add_glare(const Scene& scene, const GlareCall& call, const Exec& exec,
+                                    std::optional<KeptPsf>& kept, const LitPicture& picture) {
     const Stopwatch watch;
-    GlareStats& stats = frame.stats.glare.emplace();
+    GlareStats stats;
     const GlareParams params = glare_params(scene.optics, scene.render);
-    stats.margin_px = -frame.x0;
-    dim_margin(stats.margin_px, frame.radiance.view());
-    const std::int64_t bright = count_bright(frame.radiance.view(), params.clip);
+    stats.margin_px = -picture.x0;
+    dim_margin(stats.margin_px, picture.radiance);
+    const std::int64_t bright = count_bright(picture.radiance, params.clip);
     if (bright == 0) {
         // Without a kernel: none is needed to find that there is nothing to do.
         const Image<Vec3f> point(1, 1);
         GlareReport report;
-        spread_glare(frame.radiance.view(), {{&point, 1}, {}}, params, exec, &report);
+        spread_glare(picture.radiance, {{&point, 1}, {}}, params, exec, &report);
         stats.reason = report.reason;
         stats.total_s = watch.seconds();
-        return;
+        return stats;
     }
-    check_bright_pixels(scene, bright);
+    if (call.check_bright) call.check_bright(bright);
     try {
-        prepare_psf(scene, options, exec, kept, stats);
+        prepare_psf(scene, call, exec, kept, stats);
     } catch (const Cancelled&) {
-        frame.complete = false;
-        return;
+        return std::nullopt;
     }
     GlareReport report;
     if (wants_source_kernels(scene.optics)) {
         const Stopwatch own;
-        const SourceKernels own_kernels =
-            source_kernels(scene, frame, params.clip, lens_aperture(scene.optics), kept->kernel, exec);
+        SourceKernels own_kernels;
+        if (call.free_bytes)
+            own_kernels.most = static_cast<std::size_t>(kernels_that_fit(scene, call.free_bytes()));
+        own_kernels.kernels.push_back(kept->kernel);
+        add_source_kernels(scene, picture, params.clip, lens_aperture(scene.optics), exec, own_kernels);
         stats.psf_s += own.seconds();
         stats.kernels = static_cast<int>(own_kernels.kernels.size());
         stats.own_kernel_sources = own_kernels.hidden_sources;
-        spread_glare(frame.radiance.view(), {own_kernels.kernels, own_kernels.choice.view()}, params, exec,
+        spread_glare(picture.radiance, {own_kernels.kernels, own_kernels.choice.view()}, params, exec,
                      &report);
     } else {
         stats.kernels = 1;
-        spread_glare(frame.radiance.view(), {{&kept->kernel, 1}, {}}, params, exec, &report);
+        spread_glare(picture.radiance, {{&kept->kernel, 1}, {}}, params, exec, &report);
     }
     stats.sources = report.sources;
     stats.fft = report.fft;
@@ -119,22 +109,7 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
     stats.cycles_per_px = kept->cycles_per_px;
     stats.captured = kept->captured;
     stats.total_s = watch.seconds();
-}
-
-void crop_frame(const Region& crop, Frame& frame) {
-    if (crop.width == frame.width && crop.height == frame.height) return;
-    const Region part{crop.x0 - frame.x0, crop.y0 - frame.y0, crop.width, crop.height};
-    crop_channel(part, frame.radiance);
-    crop_channel(part, frame.depth_m);
-    crop_channel(part, frame.normal);
-    crop_channel(part, frame.albedo);
-    crop_channel(part, frame.object);
-    crop_channel(part, frame.shift_px);
-    crop_channel(part, frame.shadow);
-    frame.x0 = crop.x0;
-    frame.y0 = crop.y0;
-    frame.width = crop.width;
-    frame.height = crop.height;
+    return stats;
 }
 
 }  // namespace obscura

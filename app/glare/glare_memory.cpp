@@ -1,13 +1,12 @@
-#include "app/frame/glare_memory.h"
+#include "app/glare/glare_memory.h"
 
 #include <algorithm>
 
-#include "app/frame/glare_margin.h"
-#include "app/frame/hidden_lamps.h"
-#include "app/frame/lamp_pixels.h"
-#include "app/frame/lens.h"
-#include "app/frame/memory.h"
-#include "app/frame/source_kernels.h"
+#include "app/glare/glare_margin.h"
+#include "app/glare/hidden_lamps.h"
+#include "app/glare/lamp_pixels.h"
+#include "app/glare/lens.h"
+#include "app/glare/source_kernels.h"
 #include "core/error.h"
 #include "optics/psf_memory.h"
 
@@ -81,15 +80,9 @@ std::int64_t glare_bytes(const OpticsSettings& optics, const RenderSettings& ren
     return std::max(open + lists, kept + std::max({own, defocus_bytes(optics), spread}));
 }
 
-void check_bright_pixels(const Scene& scene, std::int64_t bright_px) {
-    check_memory(estimate_memory(scene, {.lights = {}, .bright_px = bright_px, .channels = {}}), scene.limits,
-                 "the frame's glare");
-}
-
-std::int64_t kernels_that_fit(const Scene& scene) {
-    const std::int64_t left = (scene.limits.memory_mib << 20) - estimate_memory(scene).total();
+std::int64_t kernels_that_fit(const Scene& scene, std::int64_t free_bytes) {
     return expected_kernels(scene.optics, lamp_count(scene)) +
-           std::max<std::int64_t>(left, 0) / kernel_bytes(scene.optics);
+           std::max<std::int64_t>(free_bytes, 0) / kernel_bytes(scene.optics);
 }
 
 }  // namespace obscura

@@ -1,6 +1,6 @@
 // The lens of a scene: the aperture of its file, fitted to focal length and f-number.
 
-#include "app/frame/lens.h"
+#include "app/glare/lens.h"
 
 #include <gtest/gtest.h>
 

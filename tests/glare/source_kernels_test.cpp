@@ -1,7 +1,7 @@
 // Visible pupils by geometry that can be drawn by hand, blurred points by ray optics, and the frames that use
 // them.
 
-#include "app/frame/source_kernels.h"
+#include "app/glare/source_kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,10 @@
 #include <numeric>
 #include <string>
 
-#include "app/frame/defocus.h"
-#include "app/frame/lens.h"
 #include "app/frame/render_frame.h"
-#include "app/frame/visible_pupil.h"
+#include "app/glare/defocus.h"
+#include "app/glare/lens.h"
+#include "app/glare/visible_pupil.h"
 #include "app/scene/build.h"
 #include "core/error.h"
 

@@ -1,8 +1,8 @@
-#include "app/frame/lamp_pixels.h"
+#include "app/glare/lamp_pixels.h"
 
 #include <algorithm>
 
-#include "app/frame/lens.h"
+#include "app/glare/lens.h"
 #include "raster/camera_rays.h"
 
 namespace obscura {
@@ -19,10 +19,10 @@ std::vector<bool> lamps_of(const Scene& scene, double clip) {
 }
 
 /// The nearest pixel, at most one away, whose first sample shows a lamp; itself first.
-bool lamp_near(const Frame& frame, const std::vector<bool>& lamps, int& x, int& y) {
+bool lamp_near(const LitPicture& picture, const std::vector<bool>& lamps, int& x, int& y) {
     const auto shows = [&](int i, int j) {
-        if (i < 0 || j < 0 || i >= frame.width || j >= frame.height) return false;
-        const std::uint32_t object = frame.object(i, j);
+        if (i < 0 || j < 0 || i >= picture.width() || j >= picture.height()) return false;
+        const std::uint32_t object = picture.object(i, j);
         return object != no_object && lamps[object];
     };
     constexpr int near[9][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
@@ -37,29 +37,28 @@ bool lamp_near(const Frame& frame, const std::vector<bool>& lamps, int& x, int& 
 
 }  // namespace
 
-bool clips(const Frame& frame, int x, int y, double clip) {
-    const Vec3f p = frame.radiance.view()(x, y);
+bool clips(const LitPicture& picture, int x, int y, double clip) {
+    const Vec3f p = picture.radiance(x, y);
     return static_cast<double>(std::max({p.x, p.y, p.z})) > clip;
 }
 
-std::map<std::uint32_t, std::vector<LampPixel>> lamp_pixels(const Scene& scene, const Frame& frame,
+std::map<std::uint32_t, std::vector<LampPixel>> lamp_pixels(const Scene& scene, const LitPicture& picture,
                                                             double clip) {
     std::map<std::uint32_t, std::vector<LampPixel>> found;
     const std::vector<bool> lamps = lamps_of(scene, clip);
-    // The frame is the picture with its margin, equal on opposite sides.
     const CameraRays rays =
-        camera_rays(scene.camera, frame.width + 2 * frame.x0, frame.height + 2 * frame.y0);
-    for (int y = 0; y < frame.height; ++y) {
-        for (int x = 0; x < frame.width; ++x) {
+        camera_rays(scene.camera, picture.width() + 2 * picture.x0, picture.height() + 2 * picture.y0);
+    for (int y = 0; y < picture.height(); ++y) {
+        for (int x = 0; x < picture.width(); ++x) {
             int i = x, j = y;
-            if (!clips(frame, x, y, clip) || !lamp_near(frame, lamps, i, j)) continue;
+            if (!clips(picture, x, y, clip) || !lamp_near(picture, lamps, i, j)) continue;
             // The lamp's depth in the pixel's own direction.
-            const double z = static_cast<double>(frame.depth_m(i, j)),
-                         X = frame.x0 + x + 0.5 + frame.shift_at(i, j), Y = frame.y0 + y + 0.5;
+            const double z = static_cast<double>(picture.depth_m(i, j)),
+                         X = picture.x0 + x + 0.5 + picture.shift_at(i, j), Y = picture.y0 + y + 0.5;
             const auto along = [&](int k) {
                 return rays.eye[k] + z * (rays.dir0[k] + X * rays.dir_x[k] + Y * rays.dir_y[k]);
             };
-            found[frame.object(i, j)].push_back({x, y, {along(0), along(1), along(2)}});
+            found[picture.object(i, j)].push_back({x, y, {along(0), along(1), along(2)}});
         }
     }
     return found;

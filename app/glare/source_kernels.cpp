@@ -1,15 +1,14 @@
 // Sources are put into few classes whose patterns are computed: by what they see of the lens, or by how far
 // they are out of focus.
 
-#include "app/frame/source_kernels.h"
+#include "app/glare/source_kernels.h"
 
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "app/frame/defocus.h"
-#include "app/frame/glare_memory.h"
-#include "app/frame/hidden_lamps.h"
+#include "app/glare/defocus.h"
+#include "app/glare/hidden_lamps.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -33,16 +32,12 @@ bool wants_source_kernels(const OpticsSettings& optics) {
     return optics.enabled && (optics.visibility != PupilVisibility::open || optics.focus_m > 0);
 }
 
-SourceKernels source_kernels(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
-                             const Image<Vec3f>& open, const Exec& exec) {
-    SourceKernels result;
-    result.most = static_cast<std::size_t>(kernels_that_fit(scene));
-    result.kernels.push_back(open);
-    result.choice = Image<std::uint16_t>(frame.width, frame.height);
-    if (scene.optics.focus_m > 0) add_defocus(scene, frame, clip, aperture, exec, result);
+void add_source_kernels(const Scene& scene, const LitPicture& picture, double clip, const Aperture& aperture,
+                        const Exec& exec, SourceKernels& to) {
+    to.choice = Image<std::uint16_t>(picture.width(), picture.height());
+    if (scene.optics.focus_m > 0) add_defocus(scene, picture, clip, aperture, exec, to);
     if (scene.optics.visibility != PupilVisibility::open)
-        add_hidden_lamps(scene, frame, clip, aperture, exec, result);
-    return result;
+        add_hidden_lamps(scene, picture, clip, aperture, exec, to);
 }
 
 }  // namespace obscura

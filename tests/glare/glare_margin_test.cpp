@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "app/frame/glare_margin.h"
-#include "app/frame/lens.h"
 #include "app/frame/light_shadow.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
+#include "app/glare/glare_margin.h"
+#include "app/glare/lens.h"
 #include "app/scene/build.h"
 #include "optics/aperture_extent.h"
 

@@ -1,13 +1,13 @@
 #pragma once
 // Patterns of points of light that are out of focus: near fields of the lens's aperture.
 
-#include "app/frame/source_kernels.h"
+#include "app/glare/source_kernels.h"
 
 namespace obscura {
 
 /// Sources by at most focus_steps steps of vergence: each step's kernel is added to `to` and chosen by its
 /// pixels. Those that are blurred by less than half a pixel stay with the lens in focus.
-void add_defocus(const Scene& scene, const Frame& frame, double clip, const Aperture& aperture,
+void add_defocus(const Scene& scene, const LitPicture& picture, double clip, const Aperture& aperture,
                  const Exec& exec, SourceKernels& to);
 
 /// The near field of the aperture for a point of light out of focus: a kernel of side 2 radius + 1, channels
