@@ -57,8 +57,9 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
 
 /// Of points and spots: to their own range.
 std::vector<LightView> lamp_views(const Light& light, const ShadowViewParams& params) {
-    // What a kernel reaches beyond its receiver's texel, and one more.
-    const int margin = params.filter_px / 2 + 1;
+    // What a kernel reaches beyond its receiver's texel, and one more; of maps that are hardly larger than
+    // the kernel a quarter a side at most, since the map's border serves taps beyond it too.
+    const int margin = std::min(params.filter_px / 2 + 1, params.resolution / 4);
     if (shadow_view_count(light.kind) == 6) {
         return cube_light_views(light.position, light.near_m, light.range_m, params.resolution, margin);
     }

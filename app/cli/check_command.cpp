@@ -183,7 +183,7 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
             light.light.id);
     }
     if (found) out += fmt::format("          {}\n", resolution_text(*found));
-    if (found && found->capped) out += fmt::format("note      {}\n", capped_text(light, *found));
+    if (found && tells_cap(light, *found)) out += fmt::format("note      {}\n", capped_text(light, *found));
     if (!dense && light.shadow.receivers == Receivers::any && open_casters(scene.mesh)) {
         out += fmt::format(
             "note      light '{}': open surfaces under receivers = \"any\": the tree may need {} x {} "

@@ -26,8 +26,9 @@ std::string type_text(const KeySpec& key) {
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
-        case KeyType::time_of_day:
             return "a string";
+        case KeyType::time_of_day:
+            return "a time of day";
         case KeyType::size2:
             return "two integers [width, height]";
         case KeyType::vec2:
@@ -61,6 +62,7 @@ std::string found_text(const SceneValue& value) {
             return s.size() <= 40 ? fmt::format("the string \"{}\"", s) : "a string";
         }
         std::string operator()(const DateTime&) const { return "a date"; }
+        std::string operator()(const TimeOfDay& t) const { return "the time of day " + time_text(t); }
         std::string operator()(const SceneList& list) const {
             return fmt::format("a list of {}", list.size());
         }
@@ -274,8 +276,12 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
-        case KeyType::time_of_day:
             return checked_text(key, value, sources);
+        case KeyType::time_of_day: {
+            const auto* bare = std::get_if<TimeOfDay>(&value.data);
+            return checked_text(key, bare == nullptr ? value : SceneValue{time_text(*bare), value.place},
+                                sources);
+        }
         case KeyType::size2:
         case KeyType::vec2:
         case KeyType::vec3:

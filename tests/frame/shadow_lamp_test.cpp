@@ -36,6 +36,26 @@ Scene floor_below(LightKind kind, bool closed_floor, int filter_px, int resoluti
     return scene;
 }
 
+// The margin around a face for kernels of 15 texels is as wide as all of a map of 16.
+TEST(Lamp, MapsHardlyWiderThanTheirKernelDarkenWhatABoxHides) {
+    for (const LightKind kind : {LightKind::point, LightKind::spot}) {
+        for (const int resolution : {16, 32}) {
+            for (const int side : {7, 9, 15}) {
+                Scene scene = floor_below(kind, true, side, resolution);
+                scene.lights[0].shadow.method = ShadowMethod::compressed;
+                const Frame frame = render_frame(scene, all_channels());
+                double light = 0;
+                for (int y = 0; y < 120; ++y) {
+                    for (int x = 0; x < 120; ++x)
+                        light += frame.depth_m(x, y) < 9.9f ? 0.0 : static_cast<double>(pixel(frame, x, y).x);
+                }
+                EXPECT_EQ(light, 0) << (kind == LightKind::spot ? "spot " : "point ") << resolution
+                                    << ", kernel " << side;
+            }
+        }
+    }
+}
+
 TEST(Lamp, AClosedBoxLetsNoLightOutAtAnyResolutionAndKernel) {
     for (const LightKind kind : {LightKind::point, LightKind::spot}) {
         for (const bool closed_floor : {false, true}) {
