@@ -174,7 +174,7 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     const int n = light.shadow.resolution;
     out += fmt::format(" of {} x {}{}, filter {} x {}{}", n, n, texel_text(light, scene),
                        light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
-    out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(shadow_map_bytes(light)));
+    out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(built_map_bytes(light, scene.render)));
     out += why;
     if (has_size(light.light)) {
         out += fmt::format(
