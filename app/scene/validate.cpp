@@ -119,11 +119,8 @@ SceneValue checked_list(const KeySpec& key, const SceneValue& value, const Sourc
     const bool integers = key.type == KeyType::size2;
     const auto* list = std::get_if<SceneList>(&value.data);
     if (list == nullptr && key.type == KeyType::vec3_or_number) {
-        if (std::holds_alternative<std::string>(value.data)) wrong_type(key, value, sources);
         const double v = checked_number(key, value, sources);
-        SceneValue all = value_of(Vec3d{v, v, v});
-        all.place = value.place;
-        return all;
+        return {value_of(Vec3d{v, v, v}).data, value.place};
     }
     const bool two = integers || key.type == KeyType::vec2;
     if (list == nullptr || list->size() != (two ? 2u : 3u)) wrong_type(key, value, sources);
@@ -277,11 +274,8 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::name:
         case KeyType::choice:
             return checked_text(key, value, sources);
-        case KeyType::time_of_day: {
-            const auto* bare = std::get_if<TimeOfDay>(&value.data);
-            return checked_text(key, bare == nullptr ? value : SceneValue{time_text(*bare), value.place},
-                                sources);
-        }
+        case KeyType::time_of_day:
+            return checked_text(key, time_as_text(value), sources);
         case KeyType::size2:
         case KeyType::vec2:
         case KeyType::vec3:

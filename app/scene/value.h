@@ -70,6 +70,9 @@ struct SceneEntry {
     SceneValue value;
 };
 
+/// A time of day without quotes as the text it would be with them; anything else as it is.
+SceneValue time_as_text(const SceneValue& value);
+
 // Makers of values that stand nowhere: defaults.
 SceneValue value_of(bool v);
 SceneValue value_of(int v);

@@ -259,8 +259,6 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:9:8: 'from' must be \"HH:MM\" or \"HH:MM:SS\", 00:00 to 24:00, not \"06:30:00.500000000\""},
         {"NameThatIsATime", light(directional + "shadow.cache = 07:30:00"),
          "s.toml:8:16: 'cache' must be a string, not the time of day 07:30:00"},
-        {"NumberThatIsATime", light(directional + "angular_diameter_deg = 00:30:00"),
-         "s.toml:8:24: 'angular_diameter_deg' must be a number of degrees, not the time of day 00:30:00"},
         {"DateWithoutATime", sun_with("from = 2026-06-21"), "s.toml:9:8: a date alone means nothing here"},
         {"PathOfNoSteps", sun_with("steps = 0"), "s.toml:9:9: 'steps' must be in [1, 1440], not 0"},
         {"PathOfManySteps", sun_with("steps = 1441"), "s.toml:9:9: 'steps' must be in [1, 1440], not 1441"},
