@@ -53,7 +53,9 @@ TEST(Lamp, MapsHardlyWiderThanTheirKernelDarkenWhatABoxHides) {
                 }
                 const std::string what = (kind == LightKind::spot ? "spot " : "point ") +
                                          std::to_string(resolution) + ", kernel " + std::to_string(side);
-                if (2 * (side / 2 + 1) < resolution) EXPECT_EQ(light, 0) << what;
+                if (2 * (side / 2 + 1) < resolution) {
+                    EXPECT_EQ(light, 0) << what;
+                }
                 EXPECT_TRUE(std::isfinite(light)) << what;
             }
         }
