@@ -62,7 +62,7 @@ const std::vector<BadScene>& bad_scenes() {
         {"MissingKey", camera("eye_m = [0, 1, 5]"), "s.toml:2:1: [camera] needs 'look_at_m'"},
         {"MissingType", light(""),
          "s.toml:3:1: [[light]] needs 'type': one of \"directional\", \"sun\", \"point\", \"spot\", "
-         "\"area\""},
+         "\"area\", \"surface\""},
         {"WrongType", camera("eye_m = [0, 1]"), "s.toml:3:9: 'eye_m' must be three numbers, not a list of 2"},
         {"TextForTable", "format = 1\ncamera = \"front\"",
          "s.toml:2:10: 'camera' must be a table [camera], not the string \"front\""},
@@ -98,6 +98,7 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:5:1: 'height_m' does not apply to [camera] with projection = \"perspective\""},
         {"UnknownChoice", light("type = \"dirctional\""),
          "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", \"area\", "
+         "\"surface\", "
          "not \"dirctional\"; did you mean "
          "'directional'?"},
         {"UnlistedInteger", scene("[render]\nsamples = 2"),
@@ -259,7 +260,6 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:9:8: 'from' must be \"HH:MM\" or \"HH:MM:SS\", 00:00 to 24:00, not \"06:30:00.500000000\""},
         {"NameThatIsATime", light(directional + "shadow.cache = 07:30:00"),
          "s.toml:8:16: 'cache' must be a string, not the time of day 07:30:00"},
-        {"DateWithoutATime", sun_with("from = 2026-06-21"), "s.toml:9:8: a date alone means nothing here"},
         {"PathOfNoSteps", sun_with("steps = 0"), "s.toml:9:9: 'steps' must be in [1, 1440], not 0"},
         {"PathOfManySteps", sun_with("steps = 1441"), "s.toml:9:9: 'steps' must be in [1, 1440], not 1441"},
         {"PathOfAnotherLight", light(directional + "from = \"06:00\""),
