@@ -59,8 +59,9 @@ struct PcfView {
 ///  - depths are floats in [0, 1], stored and computed: pcf_depth_error (four units in the last place).
 constexpr float pcf_position_error = 0x1p-21f, pcf_snap = 1.0f / 256.0f, pcf_depth_error = 0x1p-22f;
 
-/// Planes that light grazes, at less than 0.9 degrees, are taken as if it were that: n . l / |l| is no less.
-constexpr float pcf_least_cosine = 1.0f / 64.0f;
+/// Planes that light grazes, at less than 50 seconds of arc, are taken as if it were that: n . l / |l| is no
+/// less.
+constexpr float pcf_least_cosine = 1.0f / 4096.0f;
 
 /// Of the way from a surface's plane to a point light or spot, the normal offset goes no further than this
 /// share: in coarse maps far receivers would else be moved past the light.

@@ -64,8 +64,9 @@ double nearest_caster_m(const Light& light) {
 
 /// Of points and spots: to their own range.
 std::vector<LightView> lamp_views(const Light& light, const ShadowViewParams& params) {
-    // What a kernel reaches beyond its receiver's texel, and one more.
-    const int margin = params.filter_px / 2 + 1;
+    // What a kernel reaches beyond its receiver's texel, and one more; of maps that are hardly larger than
+    // the kernel a quarter a side at most, since the map's border serves taps beyond it too.
+    const int margin = std::min(params.filter_px / 2 + 1, params.resolution / 4);
     if (shadow_view_count(light.kind) == 6) {
         return cube_light_views(light.position, nearest_caster_m(light), light.range_m, params.resolution,
                                 margin);

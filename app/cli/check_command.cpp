@@ -174,7 +174,7 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     const int n = light.shadow.resolution;
     out += fmt::format(" of {} x {}{}, filter {} x {}{}", n, n, texel_text(light, scene),
                        light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
-    out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(shadow_map_bytes(light)));
+    out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(built_map_bytes(light, scene.render)));
     out += why;
     if (has_size(light.light)) {
         out += fmt::format(
@@ -183,7 +183,7 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
             light.light.id);
     }
     if (found) out += fmt::format("          {}\n", resolution_text(*found));
-    if (found && found->capped) out += fmt::format("note      {}\n", capped_text(light, *found));
+    if (found && tells_cap(light, *found)) out += fmt::format("note      {}\n", capped_text(light, *found));
     if (!dense && light.shadow.receivers == Receivers::any && open_casters(scene.mesh)) {
         out += fmt::format(
             "note      light '{}': open surfaces under receivers = \"any\": the tree may need {} x {} "

@@ -170,6 +170,11 @@ std::optional<ShadowStack> load_stack_cache(const fs::path& file, const TreeFile
 
 void check_shadow_cache(const fs::path& file) {
     const MadeFolder folder(file.parent_path());
+    // A pipe would keep whoever opens it waiting, and a device holds nothing.
+    std::error_code error;
+    const fs::file_type kind = fs::status(file, error).type();
+    if (kind != fs::file_type::regular && kind != fs::file_type::not_found && kind != fs::file_type::none)
+        throw OutputError(fmt::format("{}: is not a regular file, so no shadow cache", file.string()));
     check_writable(file, Existing::replace);
 }
 

@@ -170,7 +170,12 @@ std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& rend
 
 std::int64_t expected_squares(const ShadowSettings& shadow, std::int64_t maps, const RenderSettings& render) {
     const std::int64_t pixels = std::int64_t{render.width} * render.height;
-    const std::int64_t read = pixels * (render.samples >= 16 ? 40 : render.samples >= 4 ? 15 : 6) / 5;
+    // Of texels as large as pixels, neighbouring samples read the same squares; of small ones each its own.
+    const std::int64_t fifths = shadow.max_magnification < 0.5 ? 8 * render.samples
+                                : render.samples >= 16         ? 40
+                                : render.samples >= 4          ? 15
+                                                               : 6;
+    const std::int64_t read = pixels * fifths / 5;
     const std::int64_t blocks = (std::int64_t{shadow.resolution} + 7) / 8;
     // Hierarchical kernels read coarser squares, too: a third more of them.
     const std::int64_t there =

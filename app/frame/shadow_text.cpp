@@ -19,6 +19,10 @@ std::string resolution_text(const FoundResolution& found) {
                        found.capped ? "capped, a" : "a", found.magnification, found.x, found.y);
 }
 
+bool tells_cap(const SceneLight& light, const FoundResolution& found) {
+    return found.capped && (light.shadow.max_magnification != frame_magnification || found.magnification > 1);
+}
+
 std::string capped_text(const SceneLight& light, const FoundResolution& found) {
     return fmt::format(
         "light '{}': auto resolution ends at {} x {} texels, the most there are, and one still spans {:.3g} "

@@ -14,6 +14,8 @@ std::string size_text(std::int64_t bytes);
 /// "auto: 8192 x 8192, a texel spans at most 0.83 pixels, at (12, 480)".
 std::string resolution_text(const FoundResolution& found);
 
+/// Whether the note below is owed: a bound that the file gives is not kept, or pixels see the texels.
+bool tells_cap(const SceneLight& light, const FoundResolution& found);
 /// The note on a light whose resolution is the largest there is and still too coarse for the picture.
 std::string capped_text(const SceneLight& light, const FoundResolution& found);
 

@@ -152,7 +152,8 @@ void plan_shadows(const Work& work) {
         LightShadow& shadow = shadows[used++];
         // Of stacks the most is no more than a default.
         const bool told = light.shadow.method != ShadowMethod::stack;
-        if (told && found[i] && found[i]->capped && !(shadow.stats.found && shadow.stats.found->capped)) {
+        if (told && found[i] && tells_cap(light, *found[i]) &&
+            !(shadow.stats.found && shadow.stats.found->capped)) {
             work.stats.notices.push_back(capped_text(light, *found[i]));
         }
         const LightShadowStats fresh = fresh_stats(light, found[i]);

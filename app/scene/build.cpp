@@ -283,6 +283,22 @@ std::shared_ptr<const ImageSky> sky_picture(Builder& b) {
     });
 }
 
+/// Keys that the file gives and that this kind of sky does not ask.
+void note_idle_sky_keys(Builder& b) {
+    const SceneTable& sky = subtable(b.document.root, "sky");
+    const std::string& model = text(sky, "model");
+    const auto note = [&](const char* key, bool asked, const std::string& needs) {
+        if (!asked && sky.has(key) && place_of(sky, key).source >= 0)
+            add_note(b, fmt::format("sky.{} does nothing {}", key, needs));
+    };
+    for (const char* key : {"zenith_w_m2_sr", "horizon_w_m2_sr", "ground_w_m2_sr"})
+        note(key, model == "gradient", fmt::format("with model = \"{}\"", model));
+    note("turbidity", model == "clear", fmt::format("with model = \"{}\"", model));
+    note("ground_albedo", model == "clear" || model == "overcast", fmt::format("with model = \"{}\"", model));
+    for (const char* key : {"bounces", "samples"})
+        note(key, boolean(sky, "occlusion"), "without occlusion");
+}
+
 /// What lights of surfaces shine from.
 void add_emitters(Builder& b) {
     for (const SceneTable* light : subtables(b.document.root, "light")) {
@@ -318,6 +334,7 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     b.scene.render = render_settings_of(document);
     b.scene.sky = sky_of(document);
     b.scene.sky.image = sky_picture(b);
+    note_idle_sky_keys(b);
     b.scene.outputs = outputs_of(document);
 
     add_materials(b);

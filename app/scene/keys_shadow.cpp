@@ -75,10 +75,12 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "squares are smaller, keeps more of it. \"pcf\" when not given."),
         key_row_if_given(
             &ShadowSettings::max_magnification,
-            number_key("max_magnification",
-                       "Compressed and stack, resolution \"auto\": how many pixels the side of a texel may "
-                       "span at most, "
-                       "across its shorter direction, anywhere in the picture. 1 when not given.")
+            number_key(
+                "max_magnification",
+                "Compressed and stack, resolution \"auto\": how many pixels the side of a texel may "
+                "span at most, across its shorter direction, anywhere in the picture. When not given: "
+                "1/32 for compressed ones with scope \"frame\", filter \"pcf\" and a filter_px of at most "
+                "3, up to 8388608 samples of the picture; else 1.")
                 .in({0.01, 100})),
         word_row_if_given(
             &ShadowSettings::code, shadow_code_words.all, "code",

@@ -101,13 +101,12 @@ void complete_dense(SceneTable& settings, const Sources& sources) {
     }
 }
 
-/// "auto", and what it may go by.
-void complete_resolution(SceneTable& settings, const Sources& sources) {
-    static const ShadowSettings d;
+/// "auto", and what it may go by: magnification, when the file gives none.
+void complete_resolution(SceneTable& settings, double magnification, const Sources& sources) {
     set_default(settings, "resolution", value_of("auto"));
     const bool automatic = std::holds_alternative<std::string>(settings.find("resolution")->value.data);
     if (automatic) {
-        set_default(settings, "max_magnification", value_of(d.max_magnification));
+        set_default(settings, "max_magnification", value_of(magnification));
     } else if (settings.has("max_magnification")) {
         fail_at(settings.find("max_magnification")->place, sources,
                 "'max_magnification' needs resolution = \"auto\"");
@@ -138,7 +137,7 @@ void complete_stack(SceneTable& settings, const SceneTable& light, const SceneEn
         fail_at(samples.value.place, sources,
                 fmt::format("'samples' must be at least 4 with method = \"stack\", not {}", *count));
     }
-    complete_resolution(settings, sources);
+    complete_resolution(settings, ShadowSettings{}.max_magnification, sources);
     const SceneEntry& resolution = *settings.find("resolution");
     const auto* texels = std::get_if<std::int64_t>(&resolution.value.data);
     if (texels != nullptr && *texels > most_stack_resolution) {
@@ -149,7 +148,15 @@ void complete_stack(SceneTable& settings, const SceneTable& light, const SceneEn
     if (cache != nullptr) set_default(settings, "cache", cache->value);
 }
 
-void complete_compressed(SceneTable& settings, const SceneEntry* cache, const Sources& sources) {
+/// Samples of a picture; a pair is two.
+std::int64_t sample_count(const SceneTable& root) {
+    const SceneTable& render = subtable(root, "render");
+    const Size2 size = size2(render, "size_px");
+    return std::int64_t{size.width} * size.height * integer(render, "samples") * (root.has("stereo") ? 2 : 1);
+}
+
+void complete_compressed(SceneTable& settings, const SceneEntry* cache, std::int64_t samples,
+                         const Sources& sources) {
     static const ShadowSettings d;
     const bool own_cache = settings.has("cache");
     if (!own_cache && cache != nullptr) settings.set("cache", cache->value);
@@ -167,7 +174,9 @@ void complete_compressed(SceneTable& settings, const SceneEntry* cache, const So
     if (frame) settings.erase("cache");
     set_default(settings, "scope", value_of(settings.has("cache") || whole ? "full" : "frame"));
     set_default(settings, "filter", value_of("pcf"));
-    complete_resolution(settings, sources);
+    const bool fine = text(settings, "scope") == "frame" && text(settings, "filter") == "pcf" &&
+                      integer(settings, "filter_px") <= most_fine_filter_px && samples <= most_fine_samples;
+    complete_resolution(settings, fine ? frame_magnification : d.max_magnification, sources);
     set_default(settings, "code", value_of("mh"));
     if (text(settings, "code") == "mh") {
         set_default(settings, "layout", value_of("words24"));
@@ -246,7 +255,8 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
         }
         if (method == ShadowMethod::map || method == ShadowMethod::compressed) complete_map(settings);
         if (method == ShadowMethod::map) complete_dense(settings, sources);
-        if (method == ShadowMethod::compressed) complete_compressed(settings, cache, sources);
+        if (method == ShadowMethod::compressed)
+            complete_compressed(settings, cache, sample_count(root), sources);
         order_keys(settings);
     }
     root.erase("shadow");

@@ -66,6 +66,15 @@ constexpr int stack_samples = 64;
 /// Parallel light, whose points share them, is no slower without (app/frame/README.md has the measurements).
 constexpr int stack_break_even_frames = 2;
 
+/// Auto resolution of scene files that say nothing: of a tree that has what one picture looks up, texels that
+/// pixels ask one by one, so that their size is not seen. It has fewer nodes than one of texels as large as
+/// pixels, and nine tenths of the wrong pixels are gone (hierarchy/limits.md). Pictures of more samples than
+/// these would read more squares of the map than are collected; they, filters wider than 3 texels, which are
+/// wanted soft, and hierarchical ones keep texels of a pixel.
+constexpr double frame_magnification = 1.0 / 32;
+constexpr std::int64_t most_fine_samples = std::int64_t{1} << 23;
+constexpr std::int64_t most_fine_filter_px = 3;
+
 struct ShadowSettings {
     /// Scene files that name none get one from the rules; see tree_break_even_frames.
     ShadowMethod method = ShadowMethod::compressed;

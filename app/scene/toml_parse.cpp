@@ -83,12 +83,11 @@ SceneValue convert_node(const toml::node& node, int source, const std::string& f
         const DateTime t = convert(v->get());
         return {leaps.contains({place.line, place.column}) ? second_later(t) : t, place};
     }
-    // Whole seconds: what keys of times of day are.
-    if (const auto* v = node.as_time(); v != nullptr && v->get().nanosecond == 0) {
+    if (const auto* v = node.as_time()) {
         const toml::time t = v->get();
-        return {fmt::format("{:02}:{:02}:{:02}", int{t.hour}, int{t.minute}, int{t.second}), place};
+        return {TimeOfDay{t.hour, t.minute, t.second, t.nanosecond}, place};
     }
-    throw InputError(filename, place.line, place.column, "a date or time alone means nothing here");
+    throw InputError(filename, place.line, place.column, "a date alone means nothing here");
 }
 
 /// A number followed by a word on the line at fault is most likely a unit.

@@ -87,6 +87,7 @@ std::string toml_text(const SceneValue& value) {
         }
         std::string operator()(const std::string& s) const { return quoted(s); }
         std::string operator()(const DateTime& t) const { return date_time_text(t); }
+        std::string operator()(const TimeOfDay& t) const { return time_text(t); }
         std::string operator()(const SceneList& list) const {
             std::string out = "[";
             for (std::size_t i = 0; i < list.size(); ++i)

@@ -26,8 +26,9 @@ std::string type_text(const KeySpec& key) {
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
-        case KeyType::time_of_day:
             return "a string";
+        case KeyType::time_of_day:
+            return "a time of day";
         case KeyType::size2:
             return "two integers [width, height]";
         case KeyType::vec2:
@@ -61,6 +62,7 @@ std::string found_text(const SceneValue& value) {
             return s.size() <= 40 ? fmt::format("the string \"{}\"", s) : "a string";
         }
         std::string operator()(const DateTime&) const { return "a date"; }
+        std::string operator()(const TimeOfDay& t) const { return "the time of day " + time_text(t); }
         std::string operator()(const SceneList& list) const {
             return fmt::format("a list of {}", list.size());
         }
@@ -117,11 +119,8 @@ SceneValue checked_list(const KeySpec& key, const SceneValue& value, const Sourc
     const bool integers = key.type == KeyType::size2;
     const auto* list = std::get_if<SceneList>(&value.data);
     if (list == nullptr && key.type == KeyType::vec3_or_number) {
-        if (std::holds_alternative<std::string>(value.data)) wrong_type(key, value, sources);
         const double v = checked_number(key, value, sources);
-        SceneValue all = value_of(Vec3d{v, v, v});
-        all.place = value.place;
-        return all;
+        return {value_of(Vec3d{v, v, v}).data, value.place};
     }
     const bool two = integers || key.type == KeyType::vec2;
     if (list == nullptr || list->size() != (two ? 2u : 3u)) wrong_type(key, value, sources);
@@ -274,8 +273,9 @@ SceneValue checked_value(const KeySpec& key, const SceneValue& value, const Sour
         case KeyType::file:
         case KeyType::name:
         case KeyType::choice:
-        case KeyType::time_of_day:
             return checked_text(key, value, sources);
+        case KeyType::time_of_day:
+            return checked_text(key, time_as_text(value), sources);
         case KeyType::size2:
         case KeyType::vec2:
         case KeyType::vec3:

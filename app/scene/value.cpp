@@ -124,6 +124,16 @@ Size2 size2(const SceneTable& table, std::string_view key) {
     return {static_cast<int>(as_number(list[0])), static_cast<int>(as_number(list[1]))};
 }
 
+std::string time_text(const TimeOfDay& t) {
+    const std::string whole = fmt::format("{:02}:{:02}:{:02}", t.hour, t.minute, t.second);
+    return t.nanosecond == 0 ? whole : fmt::format("{}.{:09}", whole, t.nanosecond);
+}
+
+SceneValue time_as_text(const SceneValue& value) {
+    const auto* time = std::get_if<TimeOfDay>(&value.data);
+    return time == nullptr ? value : SceneValue{time_text(*time), value.place};
+}
+
 std::optional<double> parse_time_of_day(std::string_view text) {
     if (text.size() != 5 && text.size() != 8) return std::nullopt;
     int parts[3] = {0, 0, 0};

@@ -28,6 +28,14 @@ struct DateTime {
     friend bool operator==(const DateTime&, const DateTime&) = default;
 };
 
+/// A time of day alone, as TOML has it without quotes. Keys of times of day keep it as text.
+struct TimeOfDay {
+    int hour = 0, minute = 0, second = 0;
+    std::int64_t nanosecond = 0;
+    friend bool operator==(const TimeOfDay&, const TimeOfDay&) = default;
+};
+std::string time_text(const TimeOfDay& time);  ///< "06:30:00"; nanoseconds when there are any
+
 /// Hours since midnight of "HH:MM" or "HH:MM:SS", from 00:00 to 24:00; none of anything else.
 std::optional<double> parse_time_of_day(std::string_view text);
 
@@ -52,7 +60,7 @@ struct SceneTable {
 };
 
 struct SceneValue {
-    std::variant<bool, std::int64_t, double, std::string, DateTime, SceneList, SceneTable> data;
+    std::variant<bool, std::int64_t, double, std::string, DateTime, TimeOfDay, SceneList, SceneTable> data;
     Place place;
 };
 
@@ -61,6 +69,9 @@ struct SceneEntry {
     Place place;
     SceneValue value;
 };
+
+/// A time of day without quotes as the text it would be with them; anything else as it is.
+SceneValue time_as_text(const SceneValue& value);
 
 // Makers of values that stand nowhere: defaults.
 SceneValue value_of(bool v);

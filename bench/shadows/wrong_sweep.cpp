@@ -107,7 +107,7 @@ std::vector<SweepRow> measure_sweep(const ShadowRecipe& recipe, const ShadowBenc
         rows.push_back(sweep_row(stage, row, settings, options));
         row.method = compressed_name;
         settings.method = ShadowMethod::compressed;
-        for (const double magnification : {1.0, 1.0 / 4, 1.0 / 16}) {
+        for (const double magnification : {1.0, 1.0 / 4, 1.0 / 16, frame_magnification}) {
             row.magnification = settings.max_magnification = magnification;
             rows.push_back(sweep_row(stage, row, settings, options));
         }

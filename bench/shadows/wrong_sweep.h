@@ -43,8 +43,8 @@ struct SweepResult {
 /// Makes the shadow of lights[0] as a frame of the scene does and looks it up at every point.
 SweepResult sweep_shadow(SweepStage& stage, const ShadowSettings& settings);
 
-/// Method exact, then trees with one tap per pixel at "auto" (a texel spans 1, 1/4, 1/16 pixel at most) and
-/// at 1,048,576 texels a side; suns at 40, 8 and 1 degrees.
+/// Method exact, then trees with one tap per pixel at "auto" (a texel spans 1, 1/4, 1/16 pixel at most, or
+/// frame_magnification) and at 1,048,576 texels a side; suns at 40, 8 and 1 degrees.
 std::vector<SweepRow> measure_sweep(const ShadowRecipe& recipe, const ShadowBenchPlan& plan,
                                     const BenchOptions& options);
 

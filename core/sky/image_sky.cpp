@@ -15,7 +15,7 @@ namespace obscura {
 namespace {
 
 bool is_light(Vec3f c) {
-    const auto good = [](float v) { return std::isfinite(v) && v >= 0; };
+    const auto good = [](float v) { return v >= 0 && v <= largest_sky_radiance; };
     return good(c.x) && good(c.y) && good(c.z);
 }
 
@@ -47,7 +47,9 @@ ImageSky image_sky(std::string_view pfm_bytes, const std::string& name, double s
         if (is_light(pixel)) continue;
         const auto width = static_cast<std::size_t>(image.width);
         throw InputError(
-            name, fmt::format("pixel {}, {} of the sky is negative or not finite", i % width, i / width));
+            name,
+            fmt::format("pixel {}, {} of the sky{} is not from 0 to {:g} W/(m2 sr)", i % width, i / width,
+                        scale == 1 ? "" : fmt::format(", times {:g},", scale), largest_sky_radiance));
     }
     return sky;
 }

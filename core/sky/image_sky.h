@@ -18,8 +18,12 @@ struct ImageSky {
     double left_edge_azimuth_deg = 180;
 };
 
+/// As bright as keys of scenes allow: sums over a sky, times what lenses do to it, stay finite.
+constexpr float largest_sky_radiance = 1e9f;
+
 /// From the bytes of a PFM file, grey or colour, each radiance times `scale` (> 0). Throws InputError when it
-/// is no PFM, is not twice as wide as high, or a pixel is negative or not finite; LimitError as decode_pfm().
+/// is no PFM, is not twice as wide as high, or a pixel is not from 0 to largest_sky_radiance; LimitError as
+/// decode_pfm().
 ImageSky image_sky(std::string_view pfm_bytes, const std::string& name, double scale,
                    const ImageFileLimits& limits = {});
 

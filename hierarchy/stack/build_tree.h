@@ -1,6 +1,7 @@
 #pragma once
 // The octree of a stack from its maps, one after the other: a binary counter of runs (slab.h).
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -53,8 +54,10 @@ constexpr std::uint64_t word_bytes(const MultiresCounts& counts) {
 /// The octree of `slices` (>= 1) maps of 2^map_levels texels a side; `slice(k)` makes map k, is called from
 /// several threads at once, and once for each k. Maps behind the last, to a power of two, take any depth.
 /// Equal to the bottom-up construction over all texels, for any exec; memory follows the octree and O(log
-/// slices) maps. Levels above max_tree_levels are a LimitError.
+/// slices) maps. Levels above max_tree_levels are a LimitError. When `cancel` is set meanwhile, the result
+/// has no meaning.
 StackTree build_stack_tree(int slices, int map_levels, const std::function<CertainTree(int)>& slice,
-                           const StackTreeParams& params, const Exec& exec, StackTreeStats* stats = nullptr);
+                           const StackTreeParams& params, const Exec& exec, StackTreeStats* stats = nullptr,
+                           const std::atomic<bool>* cancel = nullptr);
 
 }  // namespace obscura

@@ -54,7 +54,8 @@ ShadowStack build_stack(const Mesh& mesh, const FocusedViews& views, const Stack
     const StackTree tree = build_stack_tree(
         static_cast<int>(views.slices.size()), map_levels,
         [&](int k) { return build_certain_tree(mesh, views.view(k), slice_params, alone, nullptr, cancel); },
-        params.tree, exec, stats);
+        params.tree, exec, stats, cancel);
+    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return {};
     ShadowStack stack;
     stack.frame = views.frame;
     stack.slices = std::make_shared<const std::vector<SliceView>>(views.slices);

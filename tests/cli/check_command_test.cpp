@@ -58,7 +58,7 @@ file = "out_####.png"
           "light     spot: spot, 1 compressed shadow map of 65536 x 65536, filter 3 x 3, built whole, "
           "filtered "
           "hierarchically, about 12.0 MiB",
-          "light     sun: directional, 1 compressed shadow map of 512 x 512, texels of ",
+          "light     sun: directional, 1 compressed shadow map of 16384 x 16384, texels of ",
           "          compressed: 'resolution' is of maps\n", "          auto: a texel spans 0.",
           "light     moon: directional, shadows of the picture's own samples, exact: 12 triangles to put in "
           "order, up to 518400 samples to look up\n          exact: 48 frames; a tree pays from 50 on\n",

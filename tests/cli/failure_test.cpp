@@ -10,21 +10,10 @@
 #include <vector>
 
 #include "core/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 
 namespace obscura::test {
 namespace {
-
-using Names = std::vector<std::string>;
-
-/// A folder with the small scene in it.
-struct SceneFolder : Folder {
-    explicit SceneFolder(const std::string& more = "") { write("s.toml", small_scene + more); }
-};
-
-Image<Rgba8> png(const std::filesystem::path& file) {
-    return decode_png(file_text(file), file.string());
-}
 
 TEST(Render, ReadOnlyFoldersAreRefusedBeforeTheWork) {
     if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";

@@ -12,22 +12,11 @@
 
 #include "core/image_io.h"
 #include "core/isa.h"
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 #include "tests/report/json_reader.h"
 
 namespace obscura::test {
 namespace {
-
-using Names = std::vector<std::string>;
-
-/// A folder with the small scene in it.
-struct SceneFolder : Folder {
-    explicit SceneFolder(const std::string& more = "") { write("s.toml", small_scene + more); }
-};
-
-Image<Rgba8> png(const std::filesystem::path& file) {
-    return decode_png(file_text(file), file.string());
-}
 
 template <class T>
 Image<T> pfm(const std::filesystem::path& file) {

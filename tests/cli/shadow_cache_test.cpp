@@ -1,7 +1,9 @@
 // [shadow] cache: files of finished maps, as the program's users meet them.
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "hierarchy/codes/tree_file.h"
@@ -136,6 +138,18 @@ TEST(ShadowCache, LiesWhereScenesMayRead) {
     // Looking at a scene makes nothing.
     EXPECT_EQ(run_in(scene.folder, {"check", "s.toml", "-D", "shadow.cache=new"}).code, 0);
     EXPECT_FALSE(std::filesystem::exists(scene.folder / "new"));
+}
+
+// Opened to be written, a pipe waits for a reader who never comes.
+TEST(ShadowCache, IsNoPipe) {
+    const CachedScene scene;
+    ASSERT_EQ(scene.render().code, 0);
+    std::filesystem::remove(scene.folder / "maps/lamp.shadowtree");
+    ASSERT_EQ(::mkfifo((scene.folder / "maps/lamp.shadowtree").c_str(), 0600), 0);
+    const Outcome run = scene.render();
+    EXPECT_EQ(run.code, 5);
+    EXPECT_NE(run.err.find("lamp.shadowtree: is not a regular file, so no shadow cache"), std::string::npos)
+        << run.err;
 }
 
 TEST(ShadowCache, IsNoneForMapsOfOneFrame) {

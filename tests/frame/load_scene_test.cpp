@@ -323,5 +323,24 @@ TEST(Texture, LevelsKeepTheMean) {
     EXPECT_EQ(bytes, texture_bytes(5, 3));
 }
 
+TEST_F(SceneBuild, KeysOfASkyThatDoNothingAreTold) {
+    const std::string sun =
+        "[[light]]\nid = \"s\"\ntype = \"directional\"\nazimuth_deg = 0\nelevation_deg = 40\n";
+    const auto notes = [&](const std::string& sky) { return build(sun + "[sky]\n" + sky).notes; };
+    using Notes = std::vector<std::string>;
+    EXPECT_EQ(
+        notes("model = \"clear\"\nocclusion = false\nbounces = 2\nsamples = 16"),
+        (Notes{"sky.bounces does nothing without occlusion", "sky.samples does nothing without occlusion"}));
+    EXPECT_EQ(notes("bounces = 1"), (Notes{"sky.bounces does nothing without occlusion"}));
+    EXPECT_EQ(notes("model = \"overcast\"\nzenith_w_m2_sr = 1\nturbidity = 3"),
+              (Notes{"sky.zenith_w_m2_sr does nothing with model = \"overcast\"",
+                     "sky.turbidity does nothing with model = \"overcast\""}));
+    EXPECT_EQ(notes("ground_albedo = 0.3"),
+              (Notes{"sky.ground_albedo does nothing with model = \"gradient\""}));
+    EXPECT_EQ(notes("model = \"clear\"\nbounces = 2\nsamples = 16\nturbidity = 2\nground_albedo = 0.1"),
+              Notes{});
+    EXPECT_EQ(notes("occlusion = true\nbounces = 0\nhorizon_w_m2_sr = 1"), Notes{});
+}
+
 }  // namespace
 }  // namespace obscura

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <string>
 
 #include "raster/shadow_map.h"
 #include "tests/frame/scenes.h"
@@ -34,6 +35,31 @@ Scene floor_below(LightKind kind, bool closed_floor, int filter_px, int resoluti
     lamp.shadow.resolution = resolution;
     scene.lights.push_back(lamp);
     return scene;
+}
+
+// The margin around a face for kernels of 15 texels is as wide as all of a map of 16, whose kernels reach
+// over all of a face: then planes continued to their taps come before the box, and something is lit.
+TEST(Lamp, MapsHardlyWiderThanTheirKernelDarkenWhatABoxHides) {
+    for (const LightKind kind : {LightKind::point, LightKind::spot}) {
+        for (const int resolution : {16, 32}) {
+            for (const int side : {7, 9, 15}) {
+                Scene scene = floor_below(kind, true, side, resolution);
+                scene.lights[0].shadow.method = ShadowMethod::compressed;
+                const Frame frame = render_frame(scene, all_channels());
+                double light = 0;
+                for (int y = 0; y < 120; ++y) {
+                    for (int x = 0; x < 120; ++x)
+                        light += frame.depth_m(x, y) < 9.9f ? 0.0 : static_cast<double>(pixel(frame, x, y).x);
+                }
+                const std::string what = (kind == LightKind::spot ? "spot " : "point ") +
+                                         std::to_string(resolution) + ", kernel " + std::to_string(side);
+                if (2 * (side / 2 + 1) < resolution) {
+                    EXPECT_EQ(light, 0) << what;
+                }
+                EXPECT_TRUE(std::isfinite(light)) << what;
+            }
+        }
+    }
 }
 
 TEST(Lamp, AClosedBoxLetsNoLightOutAtAnyResolutionAndKernel) {

@@ -48,6 +48,33 @@ bool is_shaded(Vec3d p, Vec3d direction) {
     return enter < leave;
 }
 
+// At 0.02 degrees a texel of 4 cm reaches 100 m along the slab, and its plane leaves the depths of the box.
+TEST(ShadowPlane, GrazingLightLeavesALevelSlabLit) {
+    for (const double elevation : {1.0, 0.5, 0.2, 0.05, 0.02}) {
+        for (const ShadowMethod method : {ShadowMethod::map, ShadowMethod::compressed}) {
+            Scene scene = thin_slab(1, elevation, 20);
+            scene.mesh = {};
+            add(scene, box({30, 0.5, 30}), 0, {0, -0.25f, 0});
+            add(scene, box({0.1, 0.15, 0.1}), 0, {0, 0.075f, 0});
+            scene.lights[0].shadow.method = method;
+            scene.lights[0].shadow.resolution = 1024;
+            const Frame frame = render_frame(scene, all_channels());
+            int seen = 0, dark = 0;
+            for (int y = 0; y < 300; ++y) {
+                for (int x = 0; x < 300; ++x) {
+                    const Vec3d p{(x + 0.5) / 10 - 15, 0, (y + 0.5) / 10 - 15};
+                    // Beside the post's shadow, which ends beyond the slab.
+                    if (std::fabs(p.x * num::sin(20 * deg) - p.z * num::cos(20 * deg)) < 0.3) continue;
+                    ++seen;
+                    dark += frame.shadow(x, y) < 1 ? 1 : 0;
+                }
+            }
+            EXPECT_GT(seen, 80000);
+            EXPECT_EQ(dark, 0) << elevation << (method == ShadowMethod::map ? ", map" : ", tree");
+        }
+    }
+}
+
 class ThinSlab : public testing::TestWithParam<int> {};
 
 TEST_P(ThinSlab, HasNoAcneUnderALowSunAndTheBoxOnItLeaksNoLight) {

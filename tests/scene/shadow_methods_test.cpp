@@ -7,6 +7,7 @@
 #include "app/scene/build.h"
 #include "app/scene/rules_shadow.h"
 #include "app/scene/scene_file.h"
+#include "app/scene/shadow_settings.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -40,6 +41,32 @@ TEST(ShadowMethods, OneFrameIsExact) {
     const Planned p = planned("");
     EXPECT_EQ(p.method, "exact");
     EXPECT_EQ(p.reason, "one frame");
+}
+
+// Where a picture looks single texels up they may be small; whole trees, soft filters and large pictures pay
+// for it.
+TEST(ShadowMethods, TreesOfOnePictureHaveSmallTexels) {
+    const auto magnification = [](const std::string& keys, const std::string& more = "") {
+        const SceneDocument scene = read_scene_text(
+            "format = 1\ncamera = {eye_m = [0, 2, 8], look_at_m = [0, 1, 0]}\n[[light]]\nid = \"l\"\n"
+            "type = \"directional\"\nazimuth_deg = 120\nelevation_deg = 30\n"
+            "shadow = {method = \"compressed\"" +
+                keys + "}\n" + more,
+            "s.toml");
+        const SceneTable& settings = subtable(*subtables(scene.root, "light").at(0), "shadow");
+        return settings.has("max_magnification") ? number(settings, "max_magnification") : 0;
+    };
+    EXPECT_EQ(magnification(""), frame_magnification);
+    EXPECT_EQ(magnification(", filter_px = 1"), frame_magnification);
+    EXPECT_EQ(magnification(", filter_px = 5"), 1);
+    EXPECT_EQ(magnification(", filter = \"hierarchical\""), 1);
+    EXPECT_EQ(magnification(", scope = \"full\""), 1);
+    EXPECT_EQ(magnification(", cache = \"maps\""), 1);
+    EXPECT_EQ(magnification(", max_magnification = 2"), 2);
+    EXPECT_EQ(magnification(", resolution = 512"), 0);
+    EXPECT_EQ(magnification("", "[render]\nsize_px = [1920, 1080]\nsamples = 4"), frame_magnification);
+    EXPECT_EQ(magnification("", "[render]\nsize_px = [1920, 1080]\nsamples = 16"), 1);
+    EXPECT_EQ(magnification("", "[stereo]\n[render]\nsize_px = [1920, 1080]\nsamples = 4"), 1);
 }
 
 TEST(ShadowMethods, KeysOfMapsAskForOne) {

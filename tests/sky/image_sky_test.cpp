@@ -51,7 +51,7 @@ TEST(ImageSky, InterpolatesAcrossTheSeam) {
 }
 
 TEST(ImageSky, RefusesWhatIsNoSky) {
-    Image<Vec3f> square(4, 4), dark(8, 4), endless(8, 4);
+    Image<Vec3f> square(4, 4), dark(8, 4), endless(8, 4), blinding(8, 4, {1e6f, 1e6f, 1e6f});
     dark(5, 1) = {0, -1, 0};
     endless(2, 3).z = std::numeric_limits<float>::infinity();
     const auto message = [](const Image<Vec3f>& image) -> std::string {
@@ -65,6 +65,8 @@ TEST(ImageSky, RefusesWhatIsNoSky) {
     EXPECT_NE(message(square).find("twice as wide"), std::string::npos);
     EXPECT_NE(message(dark).find("pixel 5, 1"), std::string::npos);
     EXPECT_NE(message(endless).find("pixel 2, 3"), std::string::npos);
+    EXPECT_NO_THROW(sky_of(blinding, 1000));
+    EXPECT_THROW(sky_of(blinding, 1001), InputError);  // sums of more would not be finite
     EXPECT_THROW(image_sky("P6 1 1", "sky.pfm", 1), InputError);
     EXPECT_NO_THROW(image_sky(encode_pfm(Image<float>(8, 4, 2.0f).view()), "grey.pfm", 1));
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "hierarchy/build.h"
 #include "hierarchy/stack/build_tree.h"
@@ -157,6 +158,20 @@ TEST(StackTree, GivesUpWhatGetsTooLarge) {
     EXPECT_EQ(build(nodes).tree.nodes.size(), nodes);
     EXPECT_THROW(build(nodes - 1), LimitError);
     EXPECT_THROW(build(0), LimitError);
+}
+
+TEST(StackTree, NoMapIsMadeThatNobodyWaitsFor) {
+    const Maps maps = oracle::drawn_maps(3, 16, 64, 1, 50);
+    StackTreeParams params;
+    params.anisotropies = {0, 1};
+    std::atomic<bool> cancel{false};
+    std::atomic<int> made{0};
+    const auto one = [&](int k) {
+        if (++made == 10) cancel = true;
+        return oracle::certain_tree_of(maps[static_cast<std::size_t>(k)]);
+    };
+    EXPECT_NO_THROW(build_stack_tree(64, 4, one, params, Exec{best_isa(), 1}, nullptr, &cancel));
+    EXPECT_EQ(made, 10);
 }
 
 TEST(StackTree, IsTheSameForAnyThreads) {

@@ -1,0 +1,24 @@
+#pragma once
+// A folder with the small scene, and pictures out of it.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/image_io.h"
+#include "tests/cli/program.h"
+
+namespace obscura::test {
+
+using Names = std::vector<std::string>;
+
+/// A folder with the small scene in it.
+struct SceneFolder : Folder {
+    explicit SceneFolder(const std::string& more = "") { write("s.toml", small_scene + more); }
+};
+
+inline Image<Rgba8> png(const std::filesystem::path& file) {
+    return decode_png(file_text(file), file.string());
+}
+
+}  // namespace obscura::test

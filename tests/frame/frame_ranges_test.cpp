@@ -1,0 +1,132 @@
+// Cameras, lights, shadows, skies, materials, lenses and [render] over the whole ranges of their keys: what
+// the rows allow is refused with a reason or makes a finite picture.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+
+#include "app/frame/load_scene.h"
+#include "app/frame/render_frame.h"
+#include "app/scene/keys.h"
+#include "core/error.h"
+#include "tests/scene/key_draw.h"
+
+namespace obscura {
+namespace {
+
+/// The scene at work, for whom a broken precondition ends the program.
+std::string scene_at_work;
+
+extern "C" void tell_scene(int) {
+    static_cast<void>(!::write(2, scene_at_work.data(), scene_at_work.size()));
+}
+
+/// Keys of a table and, if it has kinds, of one of them; `share` of those that need not be given.
+std::string drawn(Draw& draw, const TableSpec& spec, double share, const std::string& header,
+                  const std::vector<std::string>& without) {
+    std::string text = header;
+    const auto add = [&](const std::vector<KeySpec>& keys) {
+        for (const KeySpec& key : keys) {
+            if (std::find(without.begin(), without.end(), key.name) == without.end())
+                text += draw.line(key, share);
+        }
+    };
+    if (!spec.variants.empty()) {
+        const VariantSpec& variant = spec.variants[draw.below(spec.variants.size())];
+        text += spec.discriminator + " = \"" + variant.name + "\"\n";
+        add(variant.keys);
+    }
+    std::vector<KeySpec> keys = spec.keys;
+    std::erase_if(keys, [&](const KeySpec& k) { return k.name == spec.discriminator; });
+    add(keys);
+    return text;
+}
+
+struct Subject {
+    const char* name;
+    double share;  ///< of its keys
+    int few;       ///< scenes that are made; 25 times as many of all cases
+};
+
+const std::string sane_camera = "[camera]\neye_m = [4, 3, 6]\nlook_at_m = [0, 0.5, 0]\n";
+const std::string sane_sun =
+    "[[light]]\nid = \"sun\"\ntype = \"directional\"\nazimuth_deg = 135\nelevation_deg = 40\n";
+
+std::string drawn_scene(Draw& draw, const std::string& subject, double share) {
+    const std::string shadow = drawn(draw, shadow_table(), share, "[shadow.sun]\n", {"cache"});
+    const auto if_it = [&](const char* name, const TableSpec& table, const std::string& header,
+                           const std::vector<std::string>& without, const std::string& otherwise) {
+        return subject == name ? drawn(draw, table, share, header, without) : otherwise;
+    };
+    std::string text = "format = 1\n" + if_it("camera", camera_table(), "[camera]\n", {}, sane_camera);
+    text += if_it("render", render_table(), "[render]\n", {"size_px"}, "[render]\nsamples = 1\n");
+    text += "size_px = [32, 18]\n[limits]\nmemory_mib = 700\n";
+    if (subject == "light" || (subject == "shadow" && draw.chance() < 0.6)) {
+        text += drawn(draw, light_table(), subject == "light" ? share : 0.1, "[[light]]\nid = \"sun\"\n",
+                      {"id", "shadow"});
+    } else {
+        text += sane_sun;
+    }
+    if (subject == "shadow") text += shadow;
+    text += if_it("sky", sky_table(), "[sky]\n", {"sun", "file"}, "");
+    // What a pattern costs is not taken to its ends.
+    text += if_it("optics", optics_table(), "[optics]\n",
+                  {"mask_px", "wavelengths", "tolerance", "radius_px"}, "");
+    if (subject == "optics") text += "mask_px = 64\nwavelengths = 2\nradius_px = 12\n";
+    text += if_it("material", material_table(), "[material.clay]\n", {"texture"},
+                  "[material.clay]\nemission_w_m2_sr = 3\n");
+    return text +
+           "[[mesh]]\nid = \"ground\"\nshape = \"plane\"\nwidth_m = 20\ndepth_m = 20\n"
+           "[[mesh]]\nid = \"ball\"\nshape = \"sphere\"\nsegments = 12\nrings = 8\ntranslate_m = [0, 0.5, "
+           "0]\n"
+           "material = \"clay\"\n[[mesh]]\nid = \"box\"\nshape = \"box\"\ntranslate_m = [1.2, 0.5, -1]\n";
+}
+
+template <class Picture>
+std::int64_t not_finite(const Picture& image) {
+    return std::count_if(image.pixels.begin(), image.pixels.end(), [](Vec3f v) {
+        return !(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
+    });
+}
+
+class FrameRanges : public testing::TestWithParam<Subject> {};
+
+TEST_P(FrameRanges, WhatTheRowsAllowIsMadeOrRefused) {
+    const char* slow = std::getenv("OBSCURA_SLOW_TESTS");
+    const int wanted = slow != nullptr ? 25 * GetParam().few : GetParam().few;
+    const auto before = std::signal(SIGABRT, tell_scene);
+    int made = 0, refused = 0, too_large = 0;
+    for (int i = 0; i < 100 * wanted && made < wanted && !HasFailure(); ++i) {
+        Draw draw(static_cast<std::uint64_t>(i));
+        const std::string text = drawn_scene(draw, GetParam().name, GetParam().share);
+        scene_at_work = "draw " + std::to_string(i) + ":\n" + text;
+        SCOPED_TRACE(scene_at_work);
+        try {
+            const Scene scene = load_scene(read_scene_text(text, "s.toml"), FileAccess{});
+            EXPECT_EQ(not_finite(render_frame(scene).radiance), 0);
+            ++made;
+        } catch (const InputError& error) {
+            EXPECT_FALSE(error.message.empty());
+            ++refused;
+        } catch (const LimitError&) {
+            ++too_large;
+        }
+    }
+    std::signal(SIGABRT, before);
+    fmt::print("{}: {} made, {} refused, {} beyond limits\n", GetParam().name, made, refused, too_large);
+    EXPECT_EQ(made, wanted);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tables, FrameRanges,
+                         testing::Values(Subject{"camera", 0.3, 20}, Subject{"render", 0.5, 15},
+                                         Subject{"light", 0.3, 40}, Subject{"shadow", 0.15, 60},
+                                         Subject{"sky", 0.3, 10}, Subject{"optics", 0.1, 4},
+                                         Subject{"material", 0.5, 15}),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+}  // namespace
+}  // namespace obscura
