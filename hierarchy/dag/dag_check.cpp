@@ -1,0 +1,244 @@
+// Whether a tree of the code dag is sound, for trees that come from outside, and what it consists of.
+//
+// Nodes stand side by side from the root on, each before all that hangs below it. So they are looked at from
+// the last to the first, each once, and what hangs below their children is known: no way through a graph, of
+// which there may be more than any file is long, is walked.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "core/error.h"
+#include "hierarchy/dag/dag.h"
+#include "hierarchy/dag/dag_step.h"
+
+namespace obscura {
+namespace {
+
+constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;
+constexpr std::uint32_t bits_of_one = 0x3f800000;
+
+constexpr const char* bad_header = "has parts that do not fit each other";
+
+std::uint32_t kind_at(std::uint32_t kinds, int i) {
+    return kinds >> (2 * i) & 3u;
+}
+
+/// What hangs below a node, or is in a treelet.
+struct Below {
+    std::uint64_t values = 0;
+    int levels = 0;  ///< of nodes
+    MultiresCounts counts;
+    void add(const Below& part) {
+        values += part.values;
+        levels = std::max(levels, part.levels);
+        counts.full += part.counts.full;
+        counts.empty += part.counts.empty;
+        counts.leaf += part.counts.leaf;
+    }
+};
+
+class Walk {
+  public:
+    Walk(const ShadowTree& tree, const DagHeader& header)
+        : code_(tree.code), header_(header), form_(DagForm::of(header.form)), bytes_(tree.bytes) {}
+
+    const char* run() {
+        if (const char* fault = check_header()) return fault;
+        if (const char* fault = visit_treelets()) return fault;
+        if (const char* fault = visit_nodes()) return fault;
+        if (root_.values + 1 != header_.values) return "the number of values is not the one stated";
+        return visit_chunks();
+    }
+
+    MultiresCounts counts() const {
+        MultiresCounts counts = root_.counts;
+        ++(root_.levels == 0 ? counts.leaf : counts.full);
+        return counts;
+    }
+
+  private:
+    std::uint32_t word(std::uint64_t at) const { return DagCode::bytes_at(code_, at * 4); }
+
+    /// Parts lie inside the bytes, one behind the other.
+    const char* check_header() const {
+        if (form_.bits() != header_.form || form_.treelet_levels < min_treelet_levels ||
+            form_.treelet_levels > max_treelet_levels || form_.chunk_log2 < min_chunk_log2 ||
+            form_.chunk_log2 > max_chunk_log2)
+            return "has an unknown form";
+        const std::uint64_t treelet = header_.first_treelet, chunk = header_.first_chunk,
+                            factor = header_.first_factor;
+        if (treelet <= dag_header_words || chunk < treelet || factor < chunk || factor * 4 > bytes_)
+            return bad_header;
+        if ((chunk - treelet) % treelet_words(form_.treelet_levels) != 0) return bad_header;
+        if (header_.values == 0 || header_.values > 1u << 31)
+            return "has no number of values that it can have";
+        if (factor - chunk != (chunks() * form_.chunk_bytes() + 3) / 4) return bad_header;
+        return nullptr;
+    }
+    std::uint64_t chunks() const {
+        return (std::uint64_t{header_.values} + (1u << form_.chunk_log2) - 1) >> form_.chunk_log2;
+    }
+
+    const char* visit_treelets() {
+        const std::uint32_t words = treelet_words(form_.treelet_levels);
+        for (std::uint64_t at = header_.first_treelet; at < header_.first_chunk; at += words) {
+            Treelet treelet;
+            for (std::uint32_t k = 0; k < words; ++k) {
+                const std::uint32_t above = k + 1 < words ? word(at + k + 1) << (32 - treelet_count_bits) : 0;
+                treelet.bits[k] = word(at + k) >> treelet_count_bits | above;
+            }
+            const std::uint32_t nodes = full_tree_nodes(form_.treelet_levels);
+            const std::uint32_t rest = nodes % 32;
+            if (rest != 0 && treelet.bits[nodes / 32] >> rest != 0) return "a treelet has nodes of another";
+            Below in;
+            count_treelet(treelet, form_.treelet_levels, 0, in);
+            if (in.values == 0) return "a treelet has no values";
+            if (in.values != (word(at) & treelet_count_mask)) return "a treelet has other values than stated";
+            treelets_.push_back(in);
+        }
+        return nullptr;
+    }
+
+    /// The node at `position` and what is below it, in a full tree of so many levels.
+    void count_treelet(const Treelet& treelet, int levels, std::uint32_t position, Below& in) const {
+        Below under;
+        for (std::uint32_t i = 0; levels > 1 && i < 4; ++i)
+            count_treelet(treelet, levels - 1, position + 1 + i * full_tree_nodes(levels - 1), under);
+        const bool own = (treelet.bits[position / 32] >> position % 32 & 1u) != 0;
+        if (!own && under.values == 0) return;
+        ++(under.values == 0 ? under.counts.leaf : own ? under.counts.full : under.counts.empty);
+        under.values += own;
+        ++under.levels;
+        in.add(under);
+    }
+
+    const char* visit_nodes() {
+        std::vector<std::uint32_t> starts,
+            number(header_.first_treelet, 0);  // 1 + its number, at its first word
+        for (std::uint64_t at = dag_header_words; at < header_.first_treelet;) {
+            starts.push_back(static_cast<std::uint32_t>(at));
+            number[at] = static_cast<std::uint32_t>(starts.size());
+            DagNode node;
+            node.kinds = word(at) & 0xffu;
+            at += form_.node_words() + node.children();
+            if (at > header_.first_treelet) return "an inner node is cut short";
+        }
+        std::vector<Below> below(starts.size());
+        for (std::size_t i = starts.size(); i-- > 0;) {
+            const std::uint32_t head = word(starts[i]), kinds = head & 0xffu;
+            if (kinds == 0 && i != 0) return "an inner node has no children";
+            std::uint32_t pointer = starts[i] + form_.node_words();
+            for (int c = 0; c < 4; ++c) {
+                const auto kind = static_cast<DagKind>(kind_at(kinds, c));
+                if (kind == DagKind::none) continue;
+                const std::uint32_t target = word(pointer++);
+                if (kind == DagKind::treelet) {
+                    if (target < header_.first_treelet || target >= header_.first_chunk ||
+                        (target - header_.first_treelet) % treelet_words(form_.treelet_levels) != 0)
+                        return "a child is no treelet";
+                    below[i].add(
+                        treelets_[(target - header_.first_treelet) / treelet_words(form_.treelet_levels)]);
+                    continue;
+                }
+                if (target <= starts[i]) return "children do not follow their parent";
+                if (target >= header_.first_treelet || number[target] == 0) return "a child is no inner node";
+                Below child = below[number[target] - 1];
+                const bool full = kind == DagKind::full;
+                child.values += full;
+                ++(full ? child.counts.full : child.counts.empty);
+                ++child.levels;
+                below[i].add(child);
+            }
+            // Also what keeps the sums small: no more than 4^20 nodes of each kind and level.
+            if (below[i].levels > code_.levels) return "an inner node at the height of texels";
+            if (form_.wide && head >> 8 != 0) return "an inner node has bits that mean nothing";
+            if (below[i].values != (form_.wide ? word(starts[i] + 1) : head >> 8))
+                return "an inner node has other values than stated";
+        }
+        root_ = below[0];
+        return nullptr;
+    }
+
+    const char* visit_chunks() const {
+        const std::uint64_t first = std::uint64_t{header_.first_chunk} * 4;
+        const std::uint32_t side = 1u << form_.chunk_log2;
+        std::uint64_t factors = 0;
+        for (std::uint64_t i = 0; i < chunks(); ++i) {
+            const std::uint64_t record = first + i * form_.chunk_bytes();
+            const std::uint32_t head = DagCode::bytes_at(code_, record + 12);
+            if (head >> 2 != factors) return "factors do not follow each other";
+            for (std::uint32_t at = 0; at < side; ++at) {
+                const std::uint32_t bits = DagCode::bytes_at(code_, record + 16 + at / 32 * 4);
+                if ((bits >> at % 32 & 1u) == 0) continue;
+                if (i * side + at >= header_.values) return "a chunk has more values than there are";
+                factors += (head & 3u) + 1;
+            }
+        }
+        if (std::uint64_t{header_.first_factor} * 4 + factors != bytes_)
+            return "has other factors than its chunks ask for";
+        if (code_.layout != TreeLayout::float_bits) return nullptr;  // any fraction is a depth
+        for (std::uint32_t i = 0; i < header_.values; ++i) {
+            if (DagCode::number_of(code_, i) > bits_of_one) return "a value is not a depth in [0, 1]";
+        }
+        return nullptr;
+    }
+
+    const TreeCode& code_;
+    const DagHeader header_;
+    const DagForm form_;
+    const std::uint64_t bytes_;
+    std::vector<Below> treelets_;
+    Below root_;
+};
+
+}  // namespace
+
+const char* dag_fault_of(const ShadowTree& tree) {
+    const TreeCode& code = tree.code;
+    CHECK(code.levels >= 0 && code.levels <= max_tree_levels);
+    if (code.layout != TreeLayout::fractions && code.layout != TreeLayout::float_bits)
+        return "has an unknown layout";
+    if (tree.bytes > most_bytes) return "more bytes than lookups can name";
+    if (tree.bytes < sizeof(DagHeader)) return "no room for the header";
+    Walk walk(tree, DagCode::header(code));
+    if (const char* fault = walk.run()) return fault;
+    if (!(walk.counts() == tree.counts)) return "the number of nodes is not the one stated";
+    return tree.padding_bytes == 0 ? nullptr : "has other padding than stated";
+}
+
+DagStats dag_stats(const ShadowTree& tree) {
+    const DagHeader header = DagCode::header(tree.code);
+    const DagForm form = DagForm::of(header.form);
+    DagStats stats;
+    for (std::uint32_t at = dag_header_words; at < header.first_treelet; ++stats.inner_nodes) {
+        DagNode node;
+        node.kinds = DagCode::word(tree.code, at) & 0xffu;
+        at += form.node_words() + node.children();
+    }
+    stats.inner_bytes = 4 * std::uint64_t{header.first_treelet};
+    stats.treelet_bytes = 4 * std::uint64_t{header.first_chunk - header.first_treelet};
+    stats.treelets = stats.treelet_bytes / 4 / treelet_words(form.treelet_levels);
+    stats.values = header.values;
+    stats.chunk_bytes = 4 * std::uint64_t{header.first_factor - header.first_chunk};
+    stats.factor_bytes = tree.bytes - 4 * std::uint64_t{header.first_factor};
+    for (std::uint64_t at = std::uint64_t{header.first_chunk} * 4, i = 0; i < header.values;
+         at += form.chunk_bytes(), i += 1u << form.chunk_log2) {
+        for (std::uint64_t byte = 16; byte < form.chunk_bytes(); ++byte)
+            stats.factors += static_cast<std::uint64_t>(std::popcount(tree.code.units[at + byte]));
+    }
+    return stats;
+}
+
+std::string dag_text(const ShadowTree& tree) {
+    const DagStats stats = dag_stats(tree);
+    const DagForm form = DagForm::of(DagCode::header(tree.code).form);
+    return fmt::format("{} nodes, {} treelets of {} levels, {:.1f} bits a value{}", stats.inner_nodes,
+                       stats.treelets, form.treelet_levels,
+                       8 * static_cast<double>(stats.value_bytes()) / static_cast<double>(stats.values),
+                       tree.code.layout == TreeLayout::float_bits ? " of float bits" : "");
+}
+
+}  // namespace obscura

@@ -1,0 +1,87 @@
+#pragma once
+// The words of a tree of the code dag. POD: kernels include this.
+//
+// L. Scandolo, E. Eisemann, "Directed Acyclic Graph Encoding for Compressed Shadow Maps", High-Performance
+// Graphics 2021, sections 3.2 to 3.4, figures 2 to 4.
+//
+//   header | inner nodes, the root first | treelets | chunks | factors                      little-endian
+//
+//   inner node   kinds of the four children 8 | values below it 24 | one word for each child that exists:
+//   where
+//                it stands, in words from the header; always behind its parent. Where a tree has too many
+//                values for 24 bits, every node has a word for their number after its first (`wide`).
+//   treelet      number of its values 9 | which nodes of a full tree of so many levels have one, depth-first
+//   chunk        representative 32 | c_l 32 | c_f 32 | bytes of a factor - 1 2, first factor 30 | which of
+//   its
+//                values have a factor, a bit each
+//   factors      bytes
+//
+// Numbers of values are depth-first: a node's own stands before those below it, child by child. The root's is
+// 0.
+
+#include <cstdint>
+
+#include "hierarchy/tree_code.h"
+
+namespace obscura {
+
+struct DagHeader {
+    std::uint32_t first_treelet = 0, first_chunk = 0, first_factor = 0;  ///< words
+    std::uint32_t values = 0;                                            ///< how many
+    std::uint32_t form = 0;  ///< 0-3: levels of treelets; 4-7: chunks have 2^this values; 8: wide
+};
+constexpr std::uint32_t dag_header_words = sizeof(DagHeader) / 4;
+
+constexpr int min_treelet_levels = 1, max_treelet_levels = 5;
+constexpr int min_chunk_log2 = 4, max_chunk_log2 = 7;
+
+/// What the header's form tells.
+struct DagForm {
+    int treelet_levels = 4;
+    int chunk_log2 = 5;
+    bool wide = false;
+
+    static constexpr DagForm of(std::uint32_t form) {
+        return {static_cast<int>(form & 15u), static_cast<int>(form >> 4 & 15u), (form >> 8 & 1u) != 0};
+    }
+    constexpr std::uint32_t bits() const {
+        return static_cast<std::uint32_t>(treelet_levels) | static_cast<std::uint32_t>(chunk_log2) << 4 |
+               (wide ? 256u : 0u);
+    }
+    /// Words of a node before those of its children.
+    constexpr std::uint32_t node_words() const { return wide ? 2 : 1; }
+    /// Records of chunks are bytes side by side: 18, 20, 24 or 32.
+    constexpr std::uint32_t chunk_bytes() const { return 16u + (1u << chunk_log2) / 8u; }
+};
+
+/// What stands in a child's place.
+enum class DagKind : std::uint32_t {
+    none = 0,
+    treelet = 1,
+    empty = 2,  ///< an inner node without a value of its own
+    full = 3    ///< an inner node with one; which of the two is not part of the node: both share it
+};
+
+/// Nodes of a full tree of so many levels.
+constexpr std::uint32_t full_tree_nodes(int levels) {
+    return ((1u << (2 * levels)) - 1u) / 3u;
+}
+constexpr std::uint32_t treelet_count_bits = 9;
+constexpr std::uint32_t treelet_count_mask = (1u << treelet_count_bits) - 1u;
+/// 1, 1, 1, 3 and 11 for one to five levels.
+constexpr std::uint32_t treelet_words(int levels) {
+    return (treelet_count_bits + full_tree_nodes(levels) + 31u) / 32u;
+}
+static_assert(treelet_words(4) == 3 && treelet_words(max_treelet_levels) == 11);
+
+/// TreePlace::inside: zero at inner nodes; in a treelet the number of the node among those of the full tree
+/// (9 bits), the levels below it (3) and a one.
+constexpr std::uint32_t inside_treelet = 1u << 12;
+OBSCURA_TREE_INLINE std::uint32_t inside_of(std::uint32_t position, int levels_below) {
+    return inside_treelet | static_cast<std::uint32_t>(levels_below) << 9 | position;
+}
+/// What four bytes tell from the one on in which a node's bit is: its own and those of all below it, if these
+/// are no more.
+constexpr std::uint32_t treelet_window = 25;
+
+}  // namespace obscura

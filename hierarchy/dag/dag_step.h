@@ -1,0 +1,131 @@
+#pragma once
+// One step down a tree of the code dag (dag_format.h), and the value that its number stands for. POD: kernels
+// include this.
+//
+// L. Scandolo, E. Eisemann, "Directed Acyclic Graph Encoding for Compressed Shadow Maps", High-Performance
+// Graphics 2021, section 3.5 and algorithms 1 and 2. Errata: algorithm 2 takes a bit of a chunk that is set
+// for a factor, the text for the representative (here: a factor); its index counts the bits below, not up to
+// it; algorithm 1 adds one to a count of bits that has it already, or leaves out the value of a full node
+// above, which neither it nor the text counts. Treelets are gone down from the top, level by level, since a
+// lookup may stop at any; the shift of coordinates is that of the node's height, so that a treelet which
+// reaches below the texels is never asked for what it cannot hold.
+
+#include <cstdint>
+
+#include "hierarchy/dag/dag_format.h"
+#include "hierarchy/fixed_depth.h"
+#include "hierarchy/tree_code.h"
+
+namespace obscura {
+
+struct DagCode {
+    static constexpr std::uint32_t unit_bytes = 4;
+    static constexpr bool counts_values = true;
+
+    static OBSCURA_TREE_INLINE std::uint32_t bytes_at(const TreeCode& tree, std::uint64_t byte) {
+        std::uint32_t bits;
+        __builtin_memcpy(&bits, tree.units + byte, sizeof bits);
+        return bits;
+    }
+    static OBSCURA_TREE_INLINE std::uint32_t word(const TreeCode& tree, std::uint32_t at) {
+        return bytes_at(tree, static_cast<std::uint64_t>(at) * unit_bytes);
+    }
+    static OBSCURA_TREE_INLINE DagHeader header(const TreeCode& tree) {
+        DagHeader header;
+        __builtin_memcpy(&header, tree.units, sizeof header);
+        return header;
+    }
+
+    static OBSCURA_TREE_INLINE TreePlace root(const TreeCode&) { return {dag_header_words, 0, 1, 0}; }
+
+    static OBSCURA_TREE_INLINE TreePlace child(const TreeCode& tree, TreePlace at, int height, std::int32_t x,
+                                               std::int32_t y) {
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): no descent goes below height 1
+        const int i = (x >> (height - 1) & 1) + (y >> (height - 1) & 1) * 2;
+        return at.inside != 0 ? child_in_treelet(tree, at, i) : child_of_node(tree, at, i);
+    }
+
+    static OBSCURA_TREE_INLINE float depth(const TreeCode& tree, TreePlace place) {
+        return depth_of_fixed(tree.layout, number_of(tree, place.value));
+    }
+
+    /// Values below what a child's word points to, its own included.
+    static OBSCURA_TREE_INLINE std::uint32_t values_of(const TreeCode& tree, std::uint32_t target,
+                                                       std::uint32_t kind, bool wide) {
+        const std::uint32_t head = word(tree, target);
+        if (kind == static_cast<std::uint32_t>(DagKind::treelet)) return head & treelet_count_mask;
+        return (wide ? word(tree, target + 1) : head >> 8) + (kind & 1u);
+    }
+
+    static OBSCURA_TREE_INLINE TreePlace child_of_node(const TreeCode& tree, TreePlace at, int i) {
+        const DagForm form = DagForm::of(header(tree).form);
+        const std::uint32_t kinds = word(tree, at.node) & 0xffu;
+        const std::uint32_t kind = kinds >> (2 * i) & 3u;
+        if (kind == 0) return {no_tree_node, at.value, at.count, 0};
+        // The siblings before it, whose values stand before its own.
+        std::uint32_t pointer = at.node + form.node_words(), count = at.count;
+        for (int k = 0; k < i; ++k) {
+            const std::uint32_t other = kinds >> (2 * k) & 3u;
+            if (other != 0) count += values_of(tree, word(tree, pointer++), other, form.wide);
+        }
+        const std::uint32_t node = word(tree, pointer);
+        if (kind != static_cast<std::uint32_t>(DagKind::treelet)) {
+            const bool own = kind == static_cast<std::uint32_t>(DagKind::full);
+            return {node, own ? count : at.value, count + (own ? 1u : 0u), 0};
+        }
+        const std::uint32_t head = word(tree, node);
+        const std::uint32_t own = head >> treelet_count_bits & 1u;
+        const bool more = (head & treelet_count_mask) > own;
+        return {more ? node : no_tree_node, own != 0 ? count : at.value, count,
+                more ? inside_of(0, form.treelet_levels - 1) : 0};
+    }
+
+    /// Bits of a treelet before that of a node.
+    static OBSCURA_TREE_INLINE std::uint32_t values_before(const TreeCode& tree, std::uint32_t treelet,
+                                                           std::uint32_t position) {
+        const std::uint32_t end = treelet_count_bits + position;
+        std::uint32_t count = 0;
+        for (std::uint32_t begin = 0; begin < end; begin += 32) {
+            std::uint32_t bits = word(tree, treelet + begin / 32);
+            if (begin == 0) bits &= ~treelet_count_mask;
+            if (end - begin < 32) bits &= (1u << (end - begin)) - 1u;
+            count += static_cast<std::uint32_t>(__builtin_popcount(bits));
+        }
+        return count;
+    }
+
+    static OBSCURA_TREE_INLINE TreePlace child_in_treelet(const TreeCode& tree, TreePlace at, int i) {
+        const int below = static_cast<int>(at.inside >> 9 & 7u);
+        // The full trees of the siblings before it.
+        const std::uint32_t nodes = full_tree_nodes(below);
+        const std::uint32_t position = (at.inside & 511u) + 1 + static_cast<std::uint32_t>(i) * nodes;
+        const std::uint32_t bit = treelet_count_bits + position;
+        const std::uint32_t window = bytes_at(tree, std::uint64_t{at.node} * 4 + bit / 8) >> (bit % 8);
+        if ((window & 1u) != 0) at.value = at.count + values_before(tree, at.node, position);
+        const bool more = nodes > treelet_window || (window & ((1u << nodes) - 2u)) != 0;
+        return {more ? at.node : no_tree_node, at.value, at.count, more ? inside_of(position, below - 1) : 0};
+    }
+
+    /// Algorithm 2: the whole number (hierarchy/fixed_depth.h) that is value `index`.
+    static OBSCURA_TREE_INLINE std::uint32_t number_of(const TreeCode& tree, std::uint32_t index) {
+        const DagHeader head = header(tree);
+        const DagForm form = DagForm::of(head.form);
+        const std::uint64_t record = std::uint64_t{head.first_chunk} * 4 +
+                                     std::uint64_t{index >> form.chunk_log2} * form.chunk_bytes();
+        const std::uint32_t in_chunk = index & ((1u << form.chunk_log2) - 1u);
+        std::uint64_t at = record + 16;
+        std::uint32_t before = 0;
+        for (std::uint32_t k = 0; k < in_chunk / 32; ++k, at += 4)
+            before += static_cast<std::uint32_t>(__builtin_popcount(bytes_at(tree, at)));
+        const std::uint32_t bits = bytes_at(tree, at);
+        if ((bits >> in_chunk % 32 & 1u) == 0) return bytes_at(tree, record);
+        before += static_cast<std::uint32_t>(__builtin_popcount(bits & ((1u << in_chunk % 32) - 1u)));
+        const std::uint32_t first = bytes_at(tree, record + 12), bytes = (first & 3u) + 1;
+        const std::uint32_t factor =
+            bytes_at(tree, std::uint64_t{head.first_factor} * 4 + (first >> 2) + before * bytes) &
+            (0xffffffffu >> (32 - 8 * bytes));
+        return bytes_at(tree, record + 4) + bytes_at(tree, record + 8) * factor;
+    }
+};
+
+}  // namespace obscura
