@@ -25,7 +25,8 @@ struct MergeParams {
 /// dag: in what pieces.
 struct DagParams {
     int treelet_levels = 4;  ///< 1 to 5
-    int chunk_log2 = 5;      ///< values in chunks of 2^this: 4 to 7
+    int chunk_log2 = 6;      ///< values in chunks of 2^this: 4 to 7
+    bool packed = true;      ///< in fewer bits than the paper's
     /// Values below the root for which nodes have 24 bits; with more they have a word. Less for tests.
     std::uint64_t most_counted = (1u << 24) - 1;
 };

@@ -15,33 +15,6 @@ bool holds(NumberRange range, std::uint32_t v) {
     return range.least <= v && v <= range.greatest;
 }
 
-/// Numbers that most ranges hold, the least of them: from one of the ranges' ends to the next.
-NumberRange most_held(Ranges ranges) {
-    struct End {
-        std::uint32_t at;
-        bool last;  ///< of its range: behind the first ones at the same number, as ranges are closed
-    };
-    std::array<End, 2u << max_chunk_log2> ends;
-    std::size_t count = 0;
-    for (const NumberRange& range : ranges) {
-        ends[count++] = {range.least, false};
-        ends[count++] = {range.greatest, true};
-    }
-    std::sort(ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(count),
-              [](const End& a, const End& b) { return a.at != b.at ? a.at < b.at : a.last < b.last; });
-    NumberRange best;
-    int open = 0, most = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        open += ends[i].last ? -1 : 1;
-        // Behind a first end always stands another.
-        if (open > most) {
-            most = open;
-            best = {ends[i].at, ends[i + 1].at};
-        }
-    }
-    return best;
-}
-
 /// Factors for which base + step * factor lies in the range, up to `most`; none: nothing.
 std::optional<NumberRange> factors_in(NumberRange range, std::uint32_t base, std::uint32_t step,
                                       std::uint32_t most) {
@@ -104,6 +77,33 @@ Steps steps_for(Ranges ranges) {
 }
 
 }  // namespace
+
+NumberRange most_held(Ranges ranges) {
+    struct End {
+        std::uint32_t at;
+        bool last;  ///< of its range: behind the first ones at the same number, as
+                    ///< ranges are closed
+    };
+    std::array<End, 2u << max_chunk_log2> ends;
+    std::size_t count = 0;
+    for (const NumberRange& range : ranges) {
+        ends[count++] = {range.least, false};
+        ends[count++] = {range.greatest, true};
+    }
+    std::sort(ends.begin(), ends.begin() + static_cast<std::ptrdiff_t>(count),
+              [](const End& a, const End& b) { return a.at != b.at ? a.at < b.at : a.last < b.last; });
+    NumberRange best;
+    int open = 0, most = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        open += ends[i].last ? -1 : 1;
+        // Behind a first end always stands another.
+        if (open > most) {
+            most = open;
+            best = {ends[i].at, ends[i + 1].at};
+        }
+    }
+    return best;
+}
 
 ValueChunk chunk_of(Ranges ranges, TreeLayout layout) {
     CHECK(!ranges.empty() && ranges.size() <= 1u << max_chunk_log2);

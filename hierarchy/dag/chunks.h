@@ -25,6 +25,10 @@ struct ValueChunk {
     std::vector<std::uint32_t> factors;  ///< of the values that have one, in their order
 };
 
+/// The least numbers that most of the ranges hold: all from one of their ends to the next. Up to
+/// 2^max_chunk_log2 ranges.
+NumberRange most_held(std::span<const NumberRange> ranges);
+
 /// A number for each range, none of which is empty, up to 2^max_chunk_log2 of them. The representative is the
 /// one that most ranges hold; factors have as few bytes as a step was found for. `layout` tells which number
 /// of a range is preferred (stored_number()).

@@ -21,8 +21,11 @@ struct DagStats {
     std::uint64_t inner_nodes = 0, inner_bytes = 0;
     std::uint64_t treelets = 0, treelet_bytes = 0;
     std::uint64_t values = 0;
-    std::uint64_t chunk_bytes = 0;                ///< of the records
-    std::uint64_t factors = 0, factor_bytes = 0;  ///< values that have one, and all their bytes
+    std::uint64_t chunk_bytes = 0;  ///< of the records
+    /// Values that have one, and all their bytes. Packed: what is in chunks, and chunks of one to four
+    /// classes.
+    std::uint64_t factors = 0, factor_bytes = 0;
+    std::uint64_t classes[4] = {};
     std::uint64_t structure_bytes() const { return inner_bytes + treelet_bytes; }
     std::uint64_t value_bytes() const { return chunk_bytes + factor_bytes; }
 };
@@ -32,9 +35,9 @@ DagStats dag_stats(const ShadowTree& tree);
 
 /// Serialises a quadtree whose nodes' intervals are there. Every texel's decoded depth lies in the interval
 /// that its value has in `tree`, and the graph unfolds to the tree's own nodes. Memory:
-/// dag_construction_bytes a node. Time: O(nodes). LimitError beyond 2^31 values, 2^30 bytes of factors, or
-/// when it takes more than 2^32 bytes or params.max_units words. The same bytes for any exec. Without the top
-/// grid.
+/// dag_construction_bytes a node. Time: O(nodes). LimitError beyond 2^31 values, 2^30 bytes of factors that
+/// are not packed, or when it takes more than 2^32 bytes or params.max_units words. The same bytes for any
+/// exec. Without the top grid.
 ShadowTree encode_dag(const MultiresTree& tree, const LightView& view, const EncodeParams& params);
 
 /// What is wrong with a tree from outside, or null: as mh_fault_of(), where nodes may be shared; numbers of

@@ -20,6 +20,8 @@ namespace {
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;
 constexpr std::uint32_t bits_of_one = 0x3f800000;
 
+constexpr const char* other_factors = "has other factors than its chunks ask for";
+constexpr const char* bad_class = "a chunk has a class that means nothing";
 constexpr const char* bad_header = "has parts that do not fit each other";
 
 std::uint32_t kind_at(std::uint32_t kinds, int i) {
@@ -66,7 +68,7 @@ class Walk {
     const char* check_header() const {
         if (form_.bits() != header_.form || form_.treelet_levels < min_treelet_levels ||
             form_.treelet_levels > max_treelet_levels || form_.chunk_log2 < min_chunk_log2 ||
-            form_.chunk_log2 > max_chunk_log2)
+            form_.chunk_log2 > max_chunk_log2 || (form_.wide && form_.packed))
             return "has an unknown form";
         const std::uint64_t treelet = header_.first_treelet, chunk = header_.first_chunk,
                             factor = header_.first_factor;
@@ -115,75 +117,148 @@ class Walk {
         in.add(under);
     }
 
-    const char* visit_nodes() {
-        std::vector<std::uint32_t> starts,
-            number(header_.first_treelet, 0);  // 1 + its number, at its first word
-        for (std::uint64_t at = dag_header_words; at < header_.first_treelet;) {
-            starts.push_back(static_cast<std::uint32_t>(at));
-            number[at] = static_cast<std::uint32_t>(starts.size());
-            DagNode node;
-            node.kinds = word(at) & 0xffu;
-            at += form_.node_words() + node.children();
-            if (at > header_.first_treelet) return "an inner node is cut short";
-        }
-        std::vector<Below> below(starts.size());
-        for (std::size_t i = starts.size(); i-- > 0;) {
-            const std::uint32_t head = word(starts[i]), kinds = head & 0xffu;
-            if (kinds == 0 && i != 0) return "an inner node has no children";
-            std::uint32_t pointer = starts[i] + form_.node_words();
+    std::uint32_t units_per_word() const { return form_.packed ? 2 : 1; }
+
+    /// Finds out where nodes begin.
+    const char* find_nodes() {
+        const std::uint32_t end = header_.first_treelet * units_per_word();
+        number_.assign(end, 0);
+        for (std::uint32_t at = dag_header_words * units_per_word(); at < end;) {
+            const DagCode::NodeHead node = DagCode::head_at(code_, form_, at);
+            // Half a word may be left.
+            if (form_.packed && at + 1 == end && node.kinds == 0 && node.values == 0 && !starts_.empty())
+                break;
+            starts_.push_back(at);
+            number_[at] = static_cast<std::uint32_t>(starts_.size());
+            at = node.pointers;
             for (int c = 0; c < 4; ++c) {
-                const auto kind = static_cast<DagKind>(kind_at(kinds, c));
-                if (kind == DagKind::none) continue;
-                const std::uint32_t target = word(pointer++);
-                if (kind == DagKind::treelet) {
-                    if (target < header_.first_treelet || target >= header_.first_chunk ||
-                        (target - header_.first_treelet) % treelet_words(form_.treelet_levels) != 0)
-                        return "a child is no treelet";
-                    below[i].add(
-                        treelets_[(target - header_.first_treelet) / treelet_words(form_.treelet_levels)]);
-                    continue;
-                }
-                if (target <= starts[i]) return "children do not follow their parent";
-                if (target >= header_.first_treelet || number[target] == 0) return "a child is no inner node";
-                Below child = below[number[target] - 1];
-                const bool full = kind == DagKind::full;
-                child.values += full;
-                ++(full ? child.counts.full : child.counts.empty);
-                ++child.levels;
-                below[i].add(child);
+                const std::uint32_t kind = kind_at(node.kinds, c);
+                if (kind != 0 && at < end)
+                    at = DagCode::target_at(code_, form_, starts_.back(), at, kind).next;
+                else
+                    at += kind != 0;
             }
-            // Also what keeps the sums small: no more than 4^20 nodes of each kind and level.
-            if (below[i].levels > code_.levels) return "an inner node at the height of texels";
-            if (form_.wide && head >> 8 != 0) return "an inner node has bits that mean nothing";
-            if (below[i].values != (form_.wide ? word(starts[i] + 1) : head >> 8))
-                return "an inner node has other values than stated";
+            if (at > end) return "an inner node is cut short";
         }
-        root_ = below[0];
+        return nullptr;
+    }
+
+    const char* visit_nodes() {
+        if (const char* fault = find_nodes()) return fault;
+        below_.resize(starts_.size());
+        for (std::size_t i = starts_.size(); i-- > 0;) {
+            if (const char* fault = visit_node(i)) return fault;
+        }
+        root_ = below_[0];
+        return nullptr;
+    }
+
+    const char* visit_node(std::size_t i) {
+        const std::uint32_t at = starts_[i];
+        const DagCode::NodeHead node = DagCode::head_at(code_, form_, at);
+        if (node.kinds == 0 && i != 0) return "an inner node has no children";
+        Below& below = below_[i];
+        std::uint32_t pointer = node.pointers;
+        for (int c = 0; c < 4; ++c) {
+            const std::uint32_t kind = kind_at(node.kinds, c);
+            if (kind == 0) continue;
+            const DagCode::Target target = DagCode::target_at(code_, form_, at, pointer, kind);
+            pointer = target.next;
+            Below child;
+            const char* fault = kind == static_cast<std::uint32_t>(DagKind::treelet)
+                                    ? visit_treelet(target.unit, child)
+                                    : visit_child(at, target.unit, kind, child);
+            if (fault != nullptr) return fault;
+            below.add(child);
+        }
+        // Also what keeps the sums small: no more than 4^20 nodes of each kind and level.
+        if (below.levels > code_.levels) return "an inner node at the height of texels";
+        if (form_.wide && word(at) >> 8 != 0) return "an inner node has bits that mean nothing";
+        return below.values == node.values ? nullptr : "an inner node has other values than stated";
+    }
+
+    const char* visit_treelet(std::uint32_t unit, Below& child) const {
+        const std::uint64_t first = std::uint64_t{header_.first_treelet} * units_per_word(),
+                            end = std::uint64_t{header_.first_chunk} * units_per_word(),
+                            size = std::uint64_t{treelet_words(form_.treelet_levels)} * units_per_word();
+        if (unit < first || unit >= end || (unit - first) % size != 0) return "a child is no treelet";
+        child = treelets_[(unit - first) / size];
+        return nullptr;
+    }
+
+    const char* visit_child(std::uint32_t at, std::uint32_t unit, std::uint32_t kind, Below& child) const {
+        if (unit <= at) return "children do not follow their parent";
+        if (unit >= number_.size() || number_[unit] == 0) return "a child is no inner node";
+        child = below_[number_[unit] - 1];
+        const bool full = kind == static_cast<std::uint32_t>(DagKind::full);
+        child.values += full;
+        ++(full ? child.counts.full : child.counts.empty);
+        ++child.levels;
         return nullptr;
     }
 
     const char* visit_chunks() const {
         const std::uint64_t first = std::uint64_t{header_.first_chunk} * 4;
-        const std::uint32_t side = 1u << form_.chunk_log2;
         std::uint64_t factors = 0;
         for (std::uint64_t i = 0; i < chunks(); ++i) {
             const std::uint64_t record = first + i * form_.chunk_bytes();
-            const std::uint32_t head = DagCode::bytes_at(code_, record + 12);
-            if (head >> 2 != factors) return "factors do not follow each other";
-            for (std::uint32_t at = 0; at < side; ++at) {
-                const std::uint32_t bits = DagCode::bytes_at(code_, record + 16 + at / 32 * 4);
-                if ((bits >> at % 32 & 1u) == 0) continue;
-                if (i * side + at >= header_.values) return "a chunk has more values than there are";
-                factors += (head & 3u) + 1;
-            }
+            const char* fault = form_.packed ? visit_packed_chunk(record, values_in(i), factors)
+                                             : visit_chunk(record, values_in(i), factors);
+            if (fault != nullptr) return fault;
         }
-        if (std::uint64_t{header_.first_factor} * 4 + factors != bytes_)
-            return "has other factors than its chunks ask for";
+        if (std::uint64_t{header_.first_factor} * 4 + factors != bytes_) return other_factors;
         if (code_.layout != TreeLayout::float_bits) return nullptr;  // any fraction is a depth
         for (std::uint32_t i = 0; i < header_.values; ++i) {
             if (DagCode::number_of(code_, i) > bits_of_one) return "a value is not a depth in [0, 1]";
         }
         return nullptr;
+    }
+    std::uint32_t values_in(std::uint64_t chunk) const {
+        const std::uint64_t before = chunk << form_.chunk_log2;
+        return static_cast<std::uint32_t>(
+            std::min(header_.values - before, std::uint64_t{1} << form_.chunk_log2));
+    }
+
+    const char* visit_chunk(std::uint64_t record, std::uint32_t values, std::uint64_t& factors) const {
+        const std::uint32_t head = DagCode::bytes_at(code_, record + 12);
+        if (head >> 2 != factors) return "factors do not follow each other";
+        for (std::uint32_t at = 0; at < 1u << form_.chunk_log2; ++at) {
+            const std::uint32_t bits = DagCode::bytes_at(code_, record + 16 + at / 32 * 4);
+            if ((bits >> at % 32 & 1u) == 0) continue;
+            if (at >= values) return "a chunk has more values than there are";
+            factors += (head & 3u) + 1;
+        }
+        return nullptr;
+    }
+
+    const char* visit_packed_chunk(std::uint64_t record, std::uint32_t values, std::uint64_t& factors) const {
+        if (DagCode::bytes_at(code_, record) != factors) return "factors do not follow each other";
+        const std::uint64_t chunk = std::uint64_t{header_.first_factor} * 4 + factors;
+        if (chunk + packed_head_bytes > bytes_) return other_factors;
+        const std::uint32_t head = DagCode::bytes_at(code_, chunk), classes = (head & 3u) + 1;
+        const std::uint32_t plane_bytes = (1u << form_.chunk_log2) / 8;
+        const std::uint64_t planes = chunk + packed_head_bytes + classes * packed_class_bytes,
+                            first = planes + (classes == 1   ? 0
+                                              : classes == 2 ? 1
+                                                             : 2) *
+                                                 plane_bytes;
+        if (first > bytes_) return other_factors;
+        // Classes that are not there have no bits.
+        if (head >> 26 != 0 || (classes < 4 && head >> (2 + 6 * classes) != 0)) return bad_class;
+        for (std::uint32_t c = 0; c < classes; ++c) {
+            const std::uint8_t shift = code_.units[chunk + packed_head_bytes + c * packed_class_bytes + 4];
+            if (shift > 31 || (head >> (2 + 6 * c) & 63u) > 32) return bad_class;
+        }
+        std::uint64_t bits = 0;
+        for (std::uint32_t at = 0; at < 1u << form_.chunk_log2; ++at) {
+            const auto bit = [&](std::uint64_t from) { return code_.units[from + at / 8] >> at % 8 & 1u; };
+            const std::uint32_t c =
+                (classes > 1 ? bit(planes) : 0) + 2 * (classes > 2 ? bit(planes + plane_bytes) : 0);
+            if (c >= classes) return bad_class;
+            if (at < values) bits += head >> (2 + 6 * c) & 63u;
+        }
+        factors = first + (bits + 7) / 8 - std::uint64_t{header_.first_factor} * 4;
+        return first + (bits + 7) / 8 > bytes_ ? other_factors : nullptr;
     }
 
     const TreeCode& code_;
@@ -191,6 +266,8 @@ class Walk {
     const DagForm form_;
     const std::uint64_t bytes_;
     std::vector<Below> treelets_;
+    std::vector<std::uint32_t> starts_, number_;  ///< first units of nodes; at each of these 1 + its number
+    std::vector<Below> below_;                    ///< of nodes
     Below root_;
 };
 
@@ -209,25 +286,47 @@ const char* dag_fault_of(const ShadowTree& tree) {
     return tree.padding_bytes == 0 ? nullptr : "has other padding than stated";
 }
 
+namespace {
+
+std::uint64_t count_nodes_of(const TreeCode& code, const DagForm& form, const DagHeader& header) {
+    const std::uint32_t per_word = form.packed ? 2 : 1, end = header.first_treelet * per_word;
+    std::uint64_t count = 0;
+    for (std::uint32_t at = dag_header_words * per_word; at < end; ++count) {
+        const DagCode::NodeHead node = DagCode::head_at(code, form, at);
+        if (node.kinds == 0 && count != 0) break;  // half a word that is left
+        const std::uint32_t start = at;
+        at = node.pointers;
+        for (int c = 0; c < 4; ++c) {
+            const std::uint32_t kind = kind_at(node.kinds, c);
+            if (kind != 0) at = DagCode::target_at(code, form, start, at, kind).next;
+        }
+    }
+    return count;
+}
+
+}  // namespace
+
 DagStats dag_stats(const ShadowTree& tree) {
     const DagHeader header = DagCode::header(tree.code);
     const DagForm form = DagForm::of(header.form);
     DagStats stats;
-    for (std::uint32_t at = dag_header_words; at < header.first_treelet; ++stats.inner_nodes) {
-        DagNode node;
-        node.kinds = DagCode::word(tree.code, at) & 0xffu;
-        at += form.node_words() + node.children();
-    }
+    stats.inner_nodes = count_nodes_of(tree.code, form, header);
     stats.inner_bytes = 4 * std::uint64_t{header.first_treelet};
     stats.treelet_bytes = 4 * std::uint64_t{header.first_chunk - header.first_treelet};
     stats.treelets = stats.treelet_bytes / 4 / treelet_words(form.treelet_levels);
     stats.values = header.values;
     stats.chunk_bytes = 4 * std::uint64_t{header.first_factor - header.first_chunk};
     stats.factor_bytes = tree.bytes - 4 * std::uint64_t{header.first_factor};
-    for (std::uint64_t at = std::uint64_t{header.first_chunk} * 4, i = 0; i < header.values;
-         at += form.chunk_bytes(), i += 1u << form.chunk_log2) {
+    for (std::uint64_t i = 0; i << form.chunk_log2 < header.values; ++i) {
+        const std::uint64_t record = std::uint64_t{header.first_chunk} * 4 + i * form.chunk_bytes();
+        if (form.packed) {
+            ++stats.classes[DagCode::bytes_at(tree.code, std::uint64_t{header.first_factor} * 4 +
+                                                             DagCode::bytes_at(tree.code, record)) &
+                            3u];
+            continue;
+        }
         for (std::uint64_t byte = 16; byte < form.chunk_bytes(); ++byte)
-            stats.factors += static_cast<std::uint64_t>(std::popcount(tree.code.units[at + byte]));
+            stats.factors += static_cast<std::uint64_t>(std::popcount(tree.code.units[record + byte]));
     }
     return stats;
 }

@@ -6,6 +6,8 @@
 //
 //   header | inner nodes, the root first | treelets | chunks | factors                      little-endian
 //
+// in one of two forms. As the paper has it:
+//
 //   inner node   kinds of the four children 8 | values below it 24 | one word for each child that exists:
 //   where
 //                it stands, in words from the header; always behind its parent. Where a tree has too many
@@ -15,6 +17,18 @@
 //   its
 //                values have a factor, a bit each
 //   factors      bytes
+//
+// Packed, in half-words (16 bits), with the same treelets:
+//
+//   inner node   kinds 8 | values below it 8, or 255 and then 32 | for each child that exists: 1, place 31;
+//   or
+//                0, place 15. A treelet's place is its number, a node's the half-words from its parent on.
+//   chunk        where its part of the factors begins 32, bytes
+//   factors      of each chunk: classes - 1 2, bits of a factor of classes 0 to 3 6 each | of each class:
+//   base
+//                32, shift 8 | with more than one class, the low bits of all values' classes; with more than
+//                two, the high bits | factors, bits, in the order of the values, which are
+//                base + (factor << shift)
 //
 // Numbers of values are depth-first: a node's own stands before those below it, child by child. The root's is
 // 0.
@@ -28,30 +42,35 @@ namespace obscura {
 struct DagHeader {
     std::uint32_t first_treelet = 0, first_chunk = 0, first_factor = 0;  ///< words
     std::uint32_t values = 0;                                            ///< how many
-    std::uint32_t form = 0;  ///< 0-3: levels of treelets; 4-7: chunks have 2^this values; 8: wide
+    std::uint32_t form = 0;                                              ///< DagForm
 };
 constexpr std::uint32_t dag_header_words = sizeof(DagHeader) / 4;
 
 constexpr int min_treelet_levels = 1, max_treelet_levels = 5;
 constexpr int min_chunk_log2 = 4, max_chunk_log2 = 7;
 
-/// What the header's form tells.
+/// Bits 0-3: levels of treelets; 4-7: chunks have 2^this values; 8: wide; 9: packed.
 struct DagForm {
     int treelet_levels = 4;
     int chunk_log2 = 5;
     bool wide = false;
+    bool packed = false;
 
     static constexpr DagForm of(std::uint32_t form) {
-        return {static_cast<int>(form & 15u), static_cast<int>(form >> 4 & 15u), (form >> 8 & 1u) != 0};
+        return {static_cast<int>(form & 15u), static_cast<int>(form >> 4 & 15u), (form >> 8 & 1u) != 0,
+                (form >> 9 & 1u) != 0};
     }
     constexpr std::uint32_t bits() const {
         return static_cast<std::uint32_t>(treelet_levels) | static_cast<std::uint32_t>(chunk_log2) << 4 |
-               (wide ? 256u : 0u);
+               (wide ? 256u : 0u) | (packed ? 512u : 0u);
     }
-    /// Words of a node before those of its children.
-    constexpr std::uint32_t node_words() const { return wide ? 2 : 1; }
-    /// Records of chunks are bytes side by side: 18, 20, 24 or 32.
-    constexpr std::uint32_t chunk_bytes() const { return 16u + (1u << chunk_log2) / 8u; }
+    /// Nodes and treelets are named by their first unit, words or half-words, from the header on: this many
+    /// bits fewer than their first byte has.
+    constexpr int unit_log2() const { return packed ? 1 : 2; }
+    /// Words of a node before those of its children. Packed: half-words, where the count has no more.
+    constexpr std::uint32_t node_units() const { return wide ? 2 : 1; }
+    /// Records of chunks are bytes side by side: 18, 20, 24 or 32, or packed 4.
+    constexpr std::uint32_t chunk_bytes() const { return packed ? 4u : 16u + (1u << chunk_log2) / 8u; }
 };
 
 /// What stands in a child's place.
@@ -59,7 +78,8 @@ enum class DagKind : std::uint32_t {
     none = 0,
     treelet = 1,
     empty = 2,  ///< an inner node without a value of its own
-    full = 3    ///< an inner node with one; which of the two is not part of the node: both share it
+    full = 3    ///< an inner node with one; which of the two is not part of the
+                ///< node: both share it
 };
 
 /// Nodes of a full tree of so many levels.
@@ -73,6 +93,12 @@ constexpr std::uint32_t treelet_words(int levels) {
     return (treelet_count_bits + full_tree_nodes(levels) + 31u) / 32u;
 }
 static_assert(treelet_words(4) == 3 && treelet_words(max_treelet_levels) == 11);
+
+/// Packed: a count of 255 stands for one of 32 bits behind it.
+constexpr std::uint32_t packed_count_escape = 255;
+constexpr std::uint32_t most_short_place = (1u << 15) - 1;
+/// Packed: what the factors' bytes of a chunk begin with, and have for each class.
+constexpr std::uint32_t packed_head_bytes = 4, packed_class_bytes = 5, most_classes = 4;
 
 /// TreePlace::inside: zero at inner nodes; in a treelet the number of the node among those of the full tree
 /// (9 bits), the levels below it (3) and a one.

@@ -30,6 +30,12 @@ OBSCURA_INLINE I32 low_bits(const I32& count) {
     return shift_right_logical(splat(std::int32_t{0x7fffffff}), splat(std::int32_t{31}) - count);
 }
 
+/// Bits below place `end`; none where it is negative, all from 32 on.
+OBSCURA_INLINE I32 bits_below(const I32& end) {
+    const I32 most = splat(std::int32_t{31}), inside = min(max(end, splat(std::int32_t{0})), most);
+    return select(less(most, end), splat(std::int32_t{-1}), low_bits(inside));
+}
+
 /// Nodes of a full tree of so many levels, up to four.
 OBSCURA_INLINE I32 full_tree_nodes(const I32& levels) {
     alignas(16) static constexpr std::uint8_t nodes[16] = {0, 1, 5, 21, 85};
@@ -42,58 +48,96 @@ OBSCURA_INLINE const std::uint8_t* biased_bytes(const TreeCode& tree) {
                                                  std::uintptr_t{index_bias});
 }
 
+OBSCURA_INLINE I32 number(std::uint32_t n) {
+    return splat(static_cast<std::int32_t>(n));
+}
+
+/// First bytes of nodes or treelets, biased as these are.
+OBSCURA_INLINE I32 first_bytes(const DagForm& form, const I32& node) {
+    // The bias of the node leaves at the top.
+    return shift_left(node, form.unit_log2()) ^ splat(biased(0));
+}
+
+/// Where the pointers at these bytes lead; they then stand at the next ones.
+OBSCURA_INLINE I32 targets(const TreeCode& tree, const DagForm& form, const I32& node, const Mask& treelet,
+                           const Mask& wanted, I32& pointer) {
+    const std::uint8_t* bytes = biased_bytes(tree);
+    const I32 bits = gather_bytes<1>(bytes, select(wanted, pointer, first_bytes(form, node)));
+    if (!form.packed) {
+        pointer = pointer + splat(std::int32_t{4});
+        return bits ^ splat(biased(0));
+    }
+    const Mask is_long = any_bit(bits, splat(std::int32_t{1}));
+    const I32 all = shift_right_logical<1>(bits);
+    const I32 place = select(is_long, all, all & number(most_short_place));
+    pointer = pointer + select(is_long, splat(std::int32_t{4}), splat(std::int32_t{2}));
+    const I32 of_treelet = place * number(2 * treelet_words(form.treelet_levels)) +
+                           number((2 * DagCode::header(tree).first_treelet) ^ index_bias);
+    return select(treelet, of_treelet, node + place);
+}
+
 /// The lanes of `at_node`, which stand at inner nodes.
-OBSCURA_INLINE void descend_nodes(const DagForm& form, const std::uint8_t* base, const I32& bit,
+OBSCURA_INLINE void descend_nodes(const TreeCode& tree, const DagForm& form, const I32& bit,
                                   const Mask& at_node, Descents16<DagCode>& d) {
-    const I32 bias = splat(biased(0)), one = splat(std::int32_t{1});
-    const I32 header = gather_bytes<4>(base, d.node);
-    I32 pointer = d.node + splat(static_cast<std::int32_t>(form.node_words())), count = d.count;
+    const std::uint8_t* bytes = biased_bytes(tree);
+    const I32 bias = splat(biased(0)), one = splat(std::int32_t{1}), zero = splat(std::int32_t{0});
+    const I32 escape = number(packed_count_escape << 8);
+    const I32 first = first_bytes(form, d.node), header = gather_bytes<1>(bytes, first);
+    I32 pointer = first + number(form.packed ? 2 : 4 * form.node_units()), count = d.count;
+    if (form.packed) pointer = pointer + select(equal(header & escape, escape), splat(std::int32_t{4}), zero);
     for (int k = 0; k < 3; ++k) {
         const I32 kind = shift_right(header, 2 * k) & splat(std::int32_t{3});
-        const Mask before = at_node & less(splat(2 * k), bit) & ~equal(kind, splat(std::int32_t{0}));
+        const Mask before = at_node & less(splat(2 * k), bit) & ~equal(kind, zero);
         if (none(before)) continue;
-        const I32 target =
-            select(before, gather_bytes<4>(base, select(before, pointer, d.node)) ^ bias, d.node);
-        const I32 head = gather_bytes<4>(base, target);
-        const I32 below = form.wide ? gather_bytes<4>(base, target + one) : shift_right_logical<8>(head);
-        const I32 values =
-            select(equal(kind, one), head & splat(static_cast<std::int32_t>(treelet_count_mask)),
-                   below + (kind & one));
+        const Mask treelet = equal(kind, one);
+        I32 next = pointer;
+        const I32 to =
+            first_bytes(form, select(before, targets(tree, form, d.node, treelet, before, next), d.node));
+        const I32 head = gather_bytes<1>(bytes, to);
+        I32 below;
+        if (form.packed) {
+            below = shift_right_logical<8>(head) & splat(std::int32_t{255});
+            const Mask escaped = before & ~treelet & equal(head & escape, escape);
+            if (any(escaped))
+                below = select(escaped, gather_bytes<1>(bytes, to + splat(std::int32_t{2})), below);
+        } else {
+            below = form.wide ? gather_bytes<1>(bytes, to + splat(std::int32_t{4}))
+                              : shift_right_logical<8>(head);
+        }
+        const I32 values = select(treelet, head & number(treelet_count_mask), below + (kind & one));
         count = select(before, count + values, count);
-        pointer = select(before, pointer + one, pointer);
+        pointer = select(before, next, pointer);
     }
 
     const I32 kind = shift_right_logical(header, bit) & splat(std::int32_t{3});
-    const Mask exists = at_node & ~equal(kind, splat(std::int32_t{0}));
-    const I32 target = select(exists, gather_bytes<4>(base, select(exists, pointer, d.node)) ^ bias, d.node);
+    const Mask exists = at_node & ~equal(kind, zero);
     const Mask treelet = exists & equal(kind, one), node = exists & ~treelet;
     const Mask full = node & any_bit(kind, one);
+    const I32 target = targets(tree, form, d.node, treelet, exists, pointer);
     d.value = select(full, count ^ bias, d.value);
     d.node = select(exists, target, d.node);
-    d.count = select(exists, count + select(full, one, splat(std::int32_t{0})), d.count);
+    d.count = select(exists, count + select(full, one, zero), d.count);
     Mask more = node;
     if (any(treelet)) {
-        const I32 head = gather_bytes<4>(base, d.node);
+        const I32 head = gather_bytes<1>(bytes, first_bytes(form, d.node));
         const I32 own = shift_right_logical<treelet_count_bits>(head) & one;
-        const I32 values = head & splat(static_cast<std::int32_t>(treelet_count_mask));
-        more = more | (treelet & less(own, values));
-        const I32 start = splat(static_cast<std::int32_t>(inside_of(0, form.treelet_levels - 1)));
+        more = more | (treelet & less(own, head & number(treelet_count_mask)));
+        const I32 start = number(inside_of(0, form.treelet_levels - 1));
         d.inside = select(treelet, start | shift_left<dag_met_shift>(own), d.inside);
     }
     d.inner = (d.inner & ~at_node) | more;
 }
 
 /// The lanes of `in_treelet`, which stand in treelets, above their last level.
-OBSCURA_INLINE void descend_treelets(const TreeCode& tree, const I32& bit, const Mask& in_treelet,
-                                     Descents16<DagCode>& d) {
-    const I32 one = splat(std::int32_t{1}), bias = splat(biased(0));
+OBSCURA_INLINE void descend_treelets(const TreeCode& tree, const DagForm& form, const I32& bit,
+                                     const Mask& in_treelet, Descents16<DagCode>& d) {
+    const I32 one = splat(std::int32_t{1});
     const I32 below = shift_right_logical<9>(d.inside) & splat(std::int32_t{7});
     const I32 nodes = full_tree_nodes(below);
     const I32 position = (d.inside & splat(std::int32_t{511})) + one + shift_right_logical<1>(bit) * nodes;
     const I32 at = position + splat(static_cast<std::int32_t>(treelet_count_bits));
-    // The bias of the node leaves at the top.
     const I32 byte =
-        (shift_left<2>(d.node) + select(in_treelet, shift_right_logical<3>(at), splat(0))) ^ bias;
+        first_bytes(form, d.node) + select(in_treelet, shift_right_logical<3>(at), splat(std::int32_t{0}));
     const I32 window =
         shift_right_logical(gather_bytes<1>(biased_bytes(tree), byte), at & splat(std::int32_t{7}));
     const Mask own = in_treelet & any_bit(window, one);
@@ -110,45 +154,103 @@ OBSCURA_INLINE void descend_treelets(const TreeCode& tree, const I32& bit, const
 }
 
 /// One level down, from nodes of height `height` (>= 1) to the children that child_bit() names.
-OBSCURA_DAG_STEP void descend(DagCode, const TreeCode& tree, const std::uint8_t* base, int, const I32& bit,
+OBSCURA_DAG_STEP void descend(DagCode, const TreeCode& tree, const std::uint8_t*, int, const I32& bit,
                               Descents16<DagCode>& d) {
-    const Mask in_treelet = d.inner & any_bit(d.inside, splat(static_cast<std::int32_t>(inside_treelet)));
+    const DagForm form = DagCode::form_of(tree);
+    const Mask in_treelet = d.inner & any_bit(d.inside, number(inside_treelet));
     const Mask at_node = d.inner & ~in_treelet;
-    if (any(in_treelet)) descend_treelets(tree, bit, in_treelet, d);
-    if (any(at_node)) descend_nodes(DagForm::of(DagCode::header(tree).form), base, bit, at_node, d);
+    if (any(in_treelet)) descend_treelets(tree, form, bit, in_treelet, d);
+    if (any(at_node)) descend_nodes(tree, form, bit, at_node, d);
 }
 
 /// The numbers of the values met last.
-OBSCURA_INLINE I32 value_indices(const DagForm& form, const std::uint8_t* base,
-                                 const Descents16<DagCode>& d) {
-    const I32 last = d.value ^ splat(biased(0));
+OBSCURA_INLINE I32 value_indices(const TreeCode& tree, const DagForm& form, const Descents16<DagCode>& d) {
+    const I32 zero = splat(std::int32_t{0}), last = d.value ^ splat(biased(0));
     const I32 met = shift_right_logical<dag_met_shift>(d.inside);
-    const Mask in_treelet = less(splat(std::int32_t{0}), met);
+    const Mask in_treelet = less(zero, met);
     if (none(in_treelet)) return last;
-    const I32 end = met + splat(static_cast<std::int32_t>(treelet_count_bits) - 1);
+    const I32 first = first_bytes(form, d.node), end = met + number(treelet_count_bits - 1);
     I32 count = d.count;
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(treelet_words(form.treelet_levels)); ++k) {
         const I32 here = end - splat(32 * k);
-        const Mask some = in_treelet & less(splat(std::int32_t{0}), here);
+        const Mask some = in_treelet & less(zero, here);
         if (none(some)) break;
-        I32 bits = gather_bytes<4>(base, select(some, d.node + splat(k), d.node));
-        if (k == 0) bits = bits & splat(static_cast<std::int32_t>(~treelet_count_mask));
-        const I32 most = splat(std::int32_t{31}), counted = min(here, splat(std::int32_t{32}));
-        const I32 mask = select(less(most, counted), splat(std::int32_t{-1}), low_bits(min(counted, most)));
-        count = count + popcount(select(some, bits & mask, splat(std::int32_t{0})));
+        I32 bits = gather_bytes<1>(biased_bytes(tree), select(some, first + splat(4 * k), first));
+        if (k == 0) bits = bits & number(~treelet_count_mask);
+        count = count + popcount(select(some, bits & bits_below(here), zero));
     }
     return select(in_treelet, count, last);
+}
+
+/// DagCode::packed_number_of(): `chunk` biased.
+OBSCURA_INLINE I32 packed_numbers_of(const TreeCode& tree, const DagForm& form, const I32& chunk,
+                                     const I32& in) {
+    const std::uint8_t* bytes = biased_bytes(tree);
+    const I32 zero = splat(std::int32_t{0}), one = splat(std::int32_t{1}), three = splat(std::int32_t{3});
+    const I32 head = gather_bytes<1>(bytes, chunk), classes = (head & three) + one;
+    const I32 plane_bytes = number((1u << form.chunk_log2) / 8);
+    const I32 planes = chunk + number(packed_head_bytes) + classes * number(packed_class_bytes);
+    const Mask several = less(one, classes), many = less(splat(std::int32_t{2}), classes);
+    I32 own = zero, low = zero, high = zero, both = zero;
+    for (std::int32_t begin = 0; begin < 1 << form.chunk_log2; begin += 32) {
+        const I32 left = in - splat(begin);
+        const Mask here = several & less(splat(std::int32_t{-1}), left);
+        if (none(here)) break;
+        const I32 at = select(here, planes + splat(begin / 8), chunk);
+        const I32 a = select(here, gather_bytes<1>(bytes, at), zero);
+        I32 b = zero;
+        if (any(here & many))
+            b = select(here & many, gather_bytes<1>(bytes, select(many, at + plane_bytes, at)), zero);
+        const I32 below = bits_below(left);
+        low = low + popcount(a & below);
+        high = high + popcount(b & below);
+        both = both + popcount(a & b & below);
+        const I32 place = left & splat(std::int32_t{31});
+        const I32 of =
+            (shift_right_logical(a, place) & one) + shift_left<1>(shift_right_logical(b, place) & one);
+        own = select(here & less(left, splat(std::int32_t{32})), of, own);
+    }
+    const auto width_of = [&](int c) { return shift_right(head, 2 + 6 * c) & splat(std::int32_t{63}); };
+    const I32 bit = (in - low - high + both) * width_of(0) + (low - both) * width_of(1) +
+                    (high - both) * width_of(2) + both * width_of(3);
+    const I32 width = shift_right_logical(head, own * splat(std::int32_t{6}) + splat(std::int32_t{2})) &
+                      splat(std::int32_t{63});
+    const I32 of_class = chunk + number(packed_head_bytes) + own * number(packed_class_bytes);
+    const I32 base = gather_bytes<1>(bytes, of_class);
+    const Mask factors = less(zero, width);
+    if (none(factors)) return base;
+
+    const I32 step =
+        low_bits(gather_bytes<1>(bytes, of_class + splat(std::int32_t{4})) & splat(std::int32_t{31})) + one;
+    const I32 plane_count = select(several, one, zero) + select(many, one, zero);
+    const I32 at = select(factors, planes + plane_count * plane_bytes + shift_right_logical<3>(bit), chunk);
+    const I32 place = bit & splat(std::int32_t{7});
+    I32 factor = shift_right_logical(gather_bytes<1>(bytes, at), place);
+    const Mask long_ones = factors & less(splat(std::int32_t{25}), width);
+    if (any(long_ones)) {
+        // The next byte's word overlaps; what both have is the same.
+        const I32 next = gather_bytes<1>(bytes, select(long_ones, at + one, chunk));
+        const I32 moved = next * (low_bits(splat(std::int32_t{8}) - place) + one);
+        factor = factor | select(long_ones, moved, zero);
+    }
+    factor = factor & shift_right_logical(splat(std::int32_t{-1}),
+                                          select(factors, splat(std::int32_t{32}) - width, zero));
+    return base + select(factors, factor, zero) * step;
 }
 
 /// DagCode::number_of().
 OBSCURA_INLINE I32 numbers_of(const TreeCode& tree, const DagHeader& header, const DagForm& form,
                               const I32& index) {
     const std::uint8_t* bytes = biased_bytes(tree);
-    const auto number = [](std::uint32_t n) { return splat(static_cast<std::int32_t>(n)); };
     const I32 record =
         (shift_right(index, form.chunk_log2) * number(form.chunk_bytes()) + number(header.first_chunk * 4)) ^
         splat(biased(0));
     const I32 in_chunk = index & number((1u << form.chunk_log2) - 1u);
+    if (form.packed) {
+        const I32 chunk =
+            (gather_bytes<1>(bytes, record) + number(header.first_factor * 4)) ^ splat(biased(0));
+        return packed_numbers_of(tree, form, chunk, in_chunk);
+    }
     const I32 place = in_chunk & splat(std::int32_t{31}), row = shift_right_logical<5>(in_chunk);
     const I32 bitmap = gather_bytes<1>(bytes, record + splat(std::int32_t{16}) + shift_left<2>(row));
     const Mask own = any_bit(shift_right_logical(bitmap, place), splat(std::int32_t{1}));
@@ -174,11 +276,11 @@ OBSCURA_INLINE I32 numbers_of(const TreeCode& tree, const DagHeader& header, con
     return select(own, made, representative);
 }
 
-OBSCURA_DAG_STEP F32 values(DagCode, const TreeCode& tree, const std::uint8_t* base,
+OBSCURA_DAG_STEP F32 values(DagCode, const TreeCode& tree, const std::uint8_t*,
                             const Descents16<DagCode>& d) {
     const DagHeader header = DagCode::header(tree);
     const DagForm form = DagForm::of(header.form);
-    return depths_of(tree.layout, numbers_of(tree, header, form, value_indices(form, base, d)));
+    return depths_of(tree.layout, numbers_of(tree, header, form, value_indices(tree, form, d)));
 }
 
 }  // namespace

@@ -36,7 +36,13 @@ struct DagCode {
         return header;
     }
 
-    static OBSCURA_TREE_INLINE TreePlace root(const TreeCode&) { return {dag_header_words, 0, 1, 0}; }
+    static OBSCURA_TREE_INLINE DagForm form_of(const TreeCode& tree) {
+        return DagForm::of(header(tree).form);
+    }
+
+    static OBSCURA_TREE_INLINE TreePlace root(const TreeCode& tree) {
+        return {dag_header_words << (2 - form_of(tree).unit_log2()), 0, 1, 0};
+    }
 
     static OBSCURA_TREE_INLINE TreePlace child(const TreeCode& tree, TreePlace at, int height, std::int32_t x,
                                                std::int32_t y) {
@@ -49,44 +55,78 @@ struct DagCode {
         return depth_of_fixed(tree.layout, number_of(tree, place.value));
     }
 
-    /// Values below what a child's word points to, its own included.
-    static OBSCURA_TREE_INLINE std::uint32_t values_of(const TreeCode& tree, std::uint32_t target,
-                                                       std::uint32_t kind, bool wide) {
-        const std::uint32_t head = word(tree, target);
-        if (kind == static_cast<std::uint32_t>(DagKind::treelet)) return head & treelet_count_mask;
-        return (wide ? word(tree, target + 1) : head >> 8) + (kind & 1u);
+    /// What a node says before it tells where its children are.
+    struct NodeHead {
+        std::uint32_t kinds, values;
+        std::uint32_t pointers;  ///< unit of the first
+    };
+    static OBSCURA_TREE_INLINE NodeHead head_at(const TreeCode& tree, DagForm form, std::uint32_t node) {
+        const std::uint64_t byte = std::uint64_t{node} << form.unit_log2();
+        const std::uint32_t head = bytes_at(tree, byte);
+        if (form.packed) {
+            const std::uint32_t count = head >> 8 & 0xffu;
+            if (count != packed_count_escape) return {head & 0xffu, count, node + 1};
+            return {head & 0xffu, bytes_at(tree, byte + 2), node + 3};
+        }
+        return {head & 0xffu, form.wide ? bytes_at(tree, byte + 4) : head >> 8, node + form.node_units()};
+    }
+    struct Target {
+        std::uint32_t unit;
+        std::uint32_t next;  ///< unit of the pointer behind
+    };
+    static OBSCURA_TREE_INLINE Target target_at(const TreeCode& tree, DagForm form, std::uint32_t node,
+                                                std::uint32_t pointer, std::uint32_t kind) {
+        const std::uint32_t bits = bytes_at(tree, std::uint64_t{pointer} << form.unit_log2());
+        if (!form.packed) return {bits, pointer + 1};
+        const bool is_long = (bits & 1u) != 0;
+        const std::uint32_t place = is_long ? bits >> 1 : bits >> 1 & most_short_place;
+        const bool treelet = kind == static_cast<std::uint32_t>(DagKind::treelet);
+        return {treelet ? header(tree).first_treelet * 2 + place * treelet_words(form.treelet_levels) * 2
+                        : node + place,
+                pointer + (is_long ? 2 : 1)};
+    }
+
+    /// Values below what a child's pointer leads to, its own included.
+    static OBSCURA_TREE_INLINE std::uint32_t values_of(const TreeCode& tree, DagForm form,
+                                                       std::uint32_t target, std::uint32_t kind) {
+        if (kind == static_cast<std::uint32_t>(DagKind::treelet))
+            return bytes_at(tree, std::uint64_t{target} << form.unit_log2()) & treelet_count_mask;
+        return head_at(tree, form, target).values + (kind & 1u);
     }
 
     static OBSCURA_TREE_INLINE TreePlace child_of_node(const TreeCode& tree, TreePlace at, int i) {
-        const DagForm form = DagForm::of(header(tree).form);
-        const std::uint32_t kinds = word(tree, at.node) & 0xffu;
-        const std::uint32_t kind = kinds >> (2 * i) & 3u;
+        const DagForm form = form_of(tree);
+        const NodeHead node = head_at(tree, form, at.node);
+        const std::uint32_t kind = node.kinds >> (2 * i) & 3u;
         if (kind == 0) return {no_tree_node, at.value, at.count, 0};
         // The siblings before it, whose values stand before its own.
-        std::uint32_t pointer = at.node + form.node_words(), count = at.count;
+        std::uint32_t pointer = node.pointers, count = at.count;
         for (int k = 0; k < i; ++k) {
-            const std::uint32_t other = kinds >> (2 * k) & 3u;
-            if (other != 0) count += values_of(tree, word(tree, pointer++), other, form.wide);
+            const std::uint32_t other = node.kinds >> (2 * k) & 3u;
+            if (other == 0) continue;
+            const Target sibling = target_at(tree, form, at.node, pointer, other);
+            count += values_of(tree, form, sibling.unit, other);
+            pointer = sibling.next;
         }
-        const std::uint32_t node = word(tree, pointer);
+        const std::uint32_t target = target_at(tree, form, at.node, pointer, kind).unit;
         if (kind != static_cast<std::uint32_t>(DagKind::treelet)) {
             const bool own = kind == static_cast<std::uint32_t>(DagKind::full);
-            return {node, own ? count : at.value, count + (own ? 1u : 0u), 0};
+            return {target, own ? count : at.value, count + (own ? 1u : 0u), 0};
         }
-        const std::uint32_t head = word(tree, node);
+        const std::uint32_t head = bytes_at(tree, std::uint64_t{target} << form.unit_log2());
         const std::uint32_t own = head >> treelet_count_bits & 1u;
         const bool more = (head & treelet_count_mask) > own;
-        return {more ? node : no_tree_node, own != 0 ? count : at.value, count,
+        return {more ? target : no_tree_node, own != 0 ? count : at.value, count,
                 more ? inside_of(0, form.treelet_levels - 1) : 0};
     }
 
     /// Bits of a treelet before that of a node.
-    static OBSCURA_TREE_INLINE std::uint32_t values_before(const TreeCode& tree, std::uint32_t treelet,
+    static OBSCURA_TREE_INLINE std::uint32_t values_before(const TreeCode& tree, std::uint64_t first_byte,
                                                            std::uint32_t position) {
         const std::uint32_t end = treelet_count_bits + position;
         std::uint32_t count = 0;
         for (std::uint32_t begin = 0; begin < end; begin += 32) {
-            std::uint32_t bits = word(tree, treelet + begin / 32);
+            std::uint32_t bits = bytes_at(tree, first_byte + begin / 8);
             if (begin == 0) bits &= ~treelet_count_mask;
             if (end - begin < 32) bits &= (1u << (end - begin)) - 1u;
             count += static_cast<std::uint32_t>(__builtin_popcount(bits));
@@ -100,8 +140,9 @@ struct DagCode {
         const std::uint32_t nodes = full_tree_nodes(below);
         const std::uint32_t position = (at.inside & 511u) + 1 + static_cast<std::uint32_t>(i) * nodes;
         const std::uint32_t bit = treelet_count_bits + position;
-        const std::uint32_t window = bytes_at(tree, std::uint64_t{at.node} * 4 + bit / 8) >> (bit % 8);
-        if ((window & 1u) != 0) at.value = at.count + values_before(tree, at.node, position);
+        const std::uint64_t first_byte = std::uint64_t{at.node} << form_of(tree).unit_log2();
+        const std::uint32_t window = bytes_at(tree, first_byte + bit / 8) >> (bit % 8);
+        if ((window & 1u) != 0) at.value = at.count + values_before(tree, first_byte, position);
         const bool more = nodes > treelet_window || (window & ((1u << nodes) - 2u)) != 0;
         return {more ? at.node : no_tree_node, at.value, at.count, more ? inside_of(position, below - 1) : 0};
     }
@@ -113,6 +154,9 @@ struct DagCode {
         const std::uint64_t record = std::uint64_t{head.first_chunk} * 4 +
                                      std::uint64_t{index >> form.chunk_log2} * form.chunk_bytes();
         const std::uint32_t in_chunk = index & ((1u << form.chunk_log2) - 1u);
+        if (form.packed)
+            return packed_number_of(tree, form, std::uint64_t{head.first_factor} * 4 + bytes_at(tree, record),
+                                    in_chunk);
         std::uint64_t at = record + 16;
         std::uint32_t before = 0;
         for (std::uint32_t k = 0; k < in_chunk / 32; ++k, at += 4)
@@ -125,6 +169,45 @@ struct DagCode {
             bytes_at(tree, std::uint64_t{head.first_factor} * 4 + (first >> 2) + before * bytes) &
             (0xffffffffu >> (32 - 8 * bytes));
         return bytes_at(tree, record + 4) + bytes_at(tree, record + 8) * factor;
+    }
+
+    /// So many bits, up to 32, from a bit on.
+    static OBSCURA_TREE_INLINE std::uint32_t bits_from(const TreeCode& tree, std::uint64_t first_byte,
+                                                       std::uint32_t bit, std::uint32_t width) {
+        if (width == 0) return 0;
+        const std::uint64_t byte = first_byte + bit / 8;
+        std::uint32_t bits = bytes_at(tree, byte) >> bit % 8;
+        // The next byte's word overlaps; what both have is the same.
+        if (width > 25) bits |= bytes_at(tree, byte + 1) << (8 - bit % 8);
+        return bits & (0xffffffffu >> (32 - width));
+    }
+
+    /// The value at place `in` of a packed chunk.
+    static OBSCURA_TREE_INLINE std::uint32_t packed_number_of(const TreeCode& tree, DagForm form,
+                                                              std::uint64_t chunk, std::uint32_t in) {
+        const std::uint32_t head = bytes_at(tree, chunk), classes = (head & 3u) + 1;
+        const std::uint32_t plane_bytes = (1u << form.chunk_log2) / 8;
+        const std::uint64_t planes = chunk + packed_head_bytes + classes * packed_class_bytes;
+        // Which class it is of, and how many of each stand before it.
+        std::uint32_t own = 0, low = 0, high = 0, both = 0;
+        for (std::uint32_t begin = 0; begin <= in && classes > 1; begin += 32) {
+            const std::uint32_t below = in - begin < 32 ? (1u << (in - begin)) - 1u : 0xffffffffu;
+            const std::uint32_t a = bytes_at(tree, planes + begin / 8);
+            const std::uint32_t b = classes > 2 ? bytes_at(tree, planes + plane_bytes + begin / 8) : 0;
+            low += static_cast<std::uint32_t>(__builtin_popcount(a & below));
+            high += static_cast<std::uint32_t>(__builtin_popcount(b & below));
+            both += static_cast<std::uint32_t>(__builtin_popcount(a & b & below));
+            if (in - begin < 32) own = (a >> (in - begin) & 1u) + 2 * (b >> (in - begin) & 1u);
+        }
+        const std::uint32_t before[4] = {in - low - high + both, low - both, high - both, both};
+        std::uint32_t bit = 0;
+        for (std::uint32_t c = 0; c < most_classes; ++c)
+            bit += before[c] * (head >> (2 + 6 * c) & 63u);
+        const std::uint32_t width = head >> (2 + 6 * own) & 63u;
+        const std::uint64_t factors = planes + (classes == 1 ? 0 : classes == 2 ? 1 : 2) * plane_bytes;
+        const std::uint64_t of_class = chunk + packed_head_bytes + own * packed_class_bytes;
+        const std::uint32_t shift = bytes_at(tree, of_class + 4) & 31u;
+        return bytes_at(tree, of_class) + (bits_from(tree, factors, bit, width) << shift);
     }
 };
 

@@ -1,6 +1,7 @@
 #include "hierarchy/dag/topology.h"
 
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "core/error.h"
@@ -61,6 +62,7 @@ class Merger {
         add_value(tree_.root_interval);
         const std::uint32_t root = node_below(tree_.root);
         CHECK(root + 1 == dag_.nodes.size(), "the root is like no node below it");
+        sort_treelets();
     }
 
   private:
@@ -117,6 +119,32 @@ class Merger {
                 position + 1 + static_cast<std::uint32_t>(i) * full_tree_nodes(levels - 1);
             fill(treelet, child++, node.child(i), levels - 1, first);
         }
+    }
+
+    /// Those that most nodes point to get the lowest numbers; of as many, the first met.
+    void sort_treelets() {
+        std::vector<std::uint64_t> uses(dag_.treelets.size(), 0);
+        const auto each_treelet = [&](const auto& visit) {
+            for (DagNode& node : dag_.nodes) {
+                for (int i = 0; i < 4; ++i) {
+                    if (node.kind(i) == DagKind::treelet) visit(node.child[i]);
+                }
+            }
+        };
+        each_treelet([&](std::uint32_t treelet) { ++uses[treelet]; });
+        std::vector<std::uint32_t> order(uses.size());
+        std::iota(order.begin(), order.end(), 0u);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return uses[a] > uses[b]; });
+        std::vector<std::uint32_t> number(uses.size());
+        std::vector<Treelet> sorted;
+        sorted.reserve(order.size());
+        for (const std::uint32_t treelet : order) {
+            number[treelet] = static_cast<std::uint32_t>(sorted.size());
+            sorted.push_back(dag_.treelets[treelet]);
+        }
+        dag_.treelets = std::move(sorted);
+        each_treelet([&](std::uint32_t& treelet) { treelet = number[treelet]; });
     }
 
     const MultiresTree& tree_;

@@ -36,6 +36,7 @@ struct DagNode {
     std::uint32_t kinds = 0;      ///< DagKind, two bits each
     std::uint32_t child[4] = {};  ///< of those that exist: index of a treelet, or of a node
     std::uint64_t values = 0;     ///< below it
+    DagKind kind(int i) const { return static_cast<DagKind>(kinds >> (2 * i) & 3u); }
     std::uint32_t children() const {
         return static_cast<std::uint32_t>(std::popcount((kinds | kinds >> 1) & 0x55u));
     }
@@ -46,7 +47,7 @@ struct DagTopology {
     int treelet_levels = 0;
     TreeLayout layout = TreeLayout::fractions;  ///< of the ranges
     std::vector<DagNode> nodes;                 ///< children before parents; the last is the root
-    std::vector<Treelet> treelets;              ///< in the order in which they are met
+    std::vector<Treelet> treelets;              ///< those that most nodes point to first
     std::vector<NumberRange> values;            ///< depth-first; 0: the root's
 };
 

@@ -39,7 +39,7 @@ TEST(DagFile, RefusesCraftedGraphs) {
     EXPECT_EQ(fault(tree, 3, to(0)), "shadow tree 0: has no number of values that it can have");
     EXPECT_EQ(fault(tree, 3, to(~0u)), "shadow tree 0: has no number of values that it can have");
     EXPECT_EQ(fault(tree, 3, plus(1u << 20)), "shadow tree 0: has parts that do not fit each other");
-    for (const std::uint32_t form : {0u, 0x50u, 0x56u, 0x34u, 0x84u, 0x254u, ~0u})
+    for (const std::uint32_t form : {0u, 0x50u, 0x56u, 0x34u, 0x84u, 0x354u, 0x454u, ~0u})
         EXPECT_EQ(fault(tree, 4, to(form)), "shadow tree 0: has an unknown form") << form;
 
     // Nodes.
@@ -77,6 +77,41 @@ TEST(DagFile, RefusesCraftedGraphs) {
         << "any fraction is a depth";
 }
 
+TEST(DagFile, RefusesCraftedPackedGraphs) {
+    const ShadowTree tree = small_tree(packed_low_case), bits = small_tree(packed_bits_case);
+    const auto fault = [&](const ShadowTree& of, std::size_t byte, int change) {
+        return crafted(of, [&](TreeRecord&, std::uint8_t* units) {
+            units[byte] = static_cast<std::uint8_t>(units[byte] + change);
+        });
+    };
+    constexpr std::size_t first = 4 * root;
+    EXPECT_EQ(fault(tree, first, 0), "accepted");
+    EXPECT_EQ(fault(bits, first, 0), "accepted");
+    EXPECT_EQ(fault(tree, 17, 1), "shadow tree 0: has an unknown form") << "wide and packed";
+    EXPECT_EQ(fault(tree, first + 1, 1), "shadow tree 0: an inner node has other values than stated");
+    // The root's first pointer, behind a byte of count: to itself, and by a half-word.
+    ASSERT_LT(tree.code.units[first + 1], packed_count_escape);
+    ASSERT_EQ(tree.code.units[first] & 3, 2) << "to a node";
+    EXPECT_EQ(
+        crafted(tree, [&](TreeRecord&, std::uint8_t* units) { units[first + 2] = units[first + 3] = 0; }),
+        "shadow tree 0: children do not follow their parent");
+    EXPECT_NE(fault(tree, first + 2, 2), "accepted");
+    EXPECT_NE(fault(tree, first + 2, 1), "accepted") << "a long one";
+    EXPECT_NE(fault(tree, first + 3, 100), "accepted");
+
+    const std::size_t record = 4 * word_at(bits.code.units, 1), chunk = 4 * word_at(bits.code.units, 2);
+    EXPECT_EQ(fault(bits, record, 1), "shadow tree 0: factors do not follow each other");
+    EXPECT_NE(fault(bits, chunk, 1), "accepted") << "another number of classes";
+    EXPECT_EQ(fault(bits, chunk + 3, 0x80), "shadow tree 0: a chunk has a class that means nothing");
+    EXPECT_EQ(fault(bits, chunk + 8, 32), "shadow tree 0: a chunk has a class that means nothing");
+    EXPECT_EQ(fault(bits, chunk + 7, 0x80), "shadow tree 0: a value is not a depth in [0, 1]");
+    EXPECT_EQ(fault(tree, 4 * word_at(tree.code.units, 2) + 7, 0x80), "accepted")
+        << "any fraction is a depth";
+    // The last byte of the factors is a bit too few.
+    const auto shorter = [](TreeRecord& record_of, std::uint8_t*) { --record_of.bytes; };
+    EXPECT_NE(crafted(bits, shorter), "accepted");
+}
+
 TEST(DagFile, RefusesRecordsOfOtherTrees) {
     const ShadowTree tree = small_tree(dag_case);
     const auto with = [&](const auto& change) {
@@ -99,7 +134,8 @@ struct SharedGraph {
     ShadowTree tree;
 
     SharedGraph(int nodes, DagKind kind, const std::vector<std::uint64_t>& counts) {
-        const auto treelet = static_cast<std::uint32_t>(dag_header_words + 6 * nodes);
+        const auto treelet =
+            static_cast<std::uint32_t>(dag_header_words) + 6 * static_cast<std::uint32_t>(nodes);
         const std::uint32_t chunks = (static_cast<std::uint32_t>(counts[0]) + 1 + 127) / 128;
         words = {treelet, treelet + 1, treelet + 1 + 8 * chunks, static_cast<std::uint32_t>(counts[0]) + 1,
                  DagForm{1, 7, true}.bits()};

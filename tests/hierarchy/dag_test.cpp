@@ -9,6 +9,7 @@
 #include "hierarchy/codes/codes.h"
 #include "hierarchy/codes/decode.h"
 #include "hierarchy/dag/chunks.h"
+#include "hierarchy/dag/classes.h"
 #include "hierarchy/dag/dag.h"
 #include "hierarchy/dag/dag_step.h"
 #include "tests/hierarchy/code_cases.h"
@@ -18,11 +19,12 @@
 namespace obscura {
 namespace {
 
-EncodeParams dag_params(int treelet_levels = 4, int chunk_log2 = 5) {
+EncodeParams dag_params(int treelet_levels = 4, int chunk_log2 = 5, bool packed = false) {
     EncodeParams params;
     params.code = ShadowCode::dag;
     params.dag.treelet_levels = treelet_levels;
     params.dag.chunk_log2 = chunk_log2;
+    params.dag.packed = packed;
     return params;
 }
 
@@ -94,31 +96,100 @@ TEST(ValueChunk, TakesTheBytesThatItNeeds) {
     EXPECT_EQ(bytes_of({{0, 0}, {1, 1}, {2, 2}, {~0u, ~0u}}), 4u);
 }
 
+/// The number that a reader makes for range i.
+std::uint32_t number_in(const ClassedChunk& chunk, std::size_t i) {
+    const ValueClass& c = chunk.classes[chunk.class_of[i]];
+    return c.base + (chunk.factors[i] << c.shift);
+}
+
+TEST(ClassedChunk, HoldsEveryRangeInFewerBytesThanOneClassNeeds) {
+    std::mt19937 rng(9);
+    std::size_t of_classes[5] = {};
+    for (int round = 0; round < 3000; ++round) {
+        const bool bits = round % 2 == 1;
+        const TreeLayout layout = bits ? TreeLayout::float_bits : TreeLayout::fractions;
+        const std::uint32_t greatest = bits ? 0x3f800000u : ~0u;
+        const int chunk_log2 = min_chunk_log2 + static_cast<int>(rng() % 4);
+        std::vector<NumberRange> ranges(1 + rng() % (1u << chunk_log2));
+        // Some places, and steps around them.
+        const std::uint32_t places[3] = {static_cast<std::uint32_t>(rng()), static_cast<std::uint32_t>(rng()),
+                                         0};
+        const int spread = static_cast<int>(rng() % 32), wide = static_cast<int>(rng() % 32);
+        for (NumberRange& r : ranges) {
+            const auto least = (places[rng() % 3] + (static_cast<std::uint32_t>(rng()) >> spread)) % greatest;
+            const auto width = round % 5 == 0 ? 0 : static_cast<std::uint32_t>(rng()) >> wide;
+            r = {least, least + std::min(width, greatest - least)};
+        }
+        const ClassedChunk chunk = classed_chunk_of(ranges, layout, chunk_log2);
+        ASSERT_GE(chunk.classes.size(), 1u);
+        ASSERT_LE(chunk.classes.size(), most_classes);
+        ++of_classes[chunk.classes.size()];
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            ASSERT_LE(ranges[i].least, number_in(chunk, i));
+            ASSERT_LE(number_in(chunk, i), ranges[i].greatest);
+            const std::uint32_t width = chunk.classes[chunk.class_of[i]].width;
+            ASSERT_LE(width, 32u);
+            ASSERT_EQ(width == 32 ? 0 : chunk.factors[i] >> width, 0u);
+        }
+        // All as they are: one class of 32 bits.
+        ASSERT_LE(chunk.bytes(chunk_log2), packed_head_bytes + packed_class_bytes + 4 * ranges.size());
+    }
+    for (const std::size_t classes : {1u, 2u, 3u, 4u})
+        EXPECT_GT(of_classes[classes], 20u) << classes;
+}
+
+TEST(ClassedChunk, FindsRoofsStreetsAndWalls) {
+    std::vector<NumberRange> ranges;
+    for (std::uint32_t i = 0; i < 16; ++i) {
+        ranges.push_back({1000 + i, 1000 + i});                        // four bits
+        ranges.push_back({0x40000000u + i % 4, 0x40000000u + i % 4});  // two
+        ranges.push_back({0x80000000u, 0x90000000u});                  // none
+        ranges.push_back({0xf0000000u - i, 0xf0000000u});              // none
+    }
+    const ClassedChunk chunk = classed_chunk_of(ranges, TreeLayout::fractions, 6);
+    ASSERT_EQ(chunk.classes.size(), 4u);
+    EXPECT_EQ(chunk.bytes(6), 4 + 4 * 5 + 2 * 8 + (16 * 4 + 16 * 2) / 8u);
+    const std::vector<NumberRange> alike(64, NumberRange{5, 9});
+    EXPECT_EQ(classed_chunk_of(alike, TreeLayout::fractions, 6).bytes(6), 9u);
+}
+
 // --- whole trees -------------------------------------------------------------------------------------------
 
 TEST(Dag, IsLosslessOnEverySample) {
     for (std::uint32_t seed = 1; seed <= 4; ++seed) {
         for (int levels = min_treelet_levels; levels <= max_treelet_levels; ++levels) {
-            const EncodeParams params = dag_params(levels, min_chunk_log2 + levels % 4);
-            expect_lossless(random_interval_map(seed, 64), params, "random");
-            expect_lossless(solid_interval_map(seed, 256, seed % 2 == 0), params, "solids");
+            for (const bool packed : {false, true}) {
+                const EncodeParams params = dag_params(levels, min_chunk_log2 + levels % 4, packed);
+                expect_lossless(random_interval_map(seed, 64), params, "random");
+                expect_lossless(solid_interval_map(seed, 256, seed % 2 == 0), params, "solids");
+            }
         }
     }
     for (const int side : {1, 2, 64}) {
-        expect_lossless(Image<DepthInterval>(side, side), dag_params(), "background");
-        expect_lossless(distinct_interval_map(side), dag_params(), "distinct");
-        if (side > 4) expect_lossless(lopsided_interval_map(side), dag_params(), "lopsided");
+        for (const bool packed : {false, true}) {
+            const EncodeParams params = dag_params(4, 6, packed);
+            expect_lossless(Image<DepthInterval>(side, side), params, "background");
+            expect_lossless(distinct_interval_map(side), params, "distinct");
+            if (side > 4) expect_lossless(lopsided_interval_map(side), params, "lopsided");
+        }
     }
 }
 
 TEST(Dag, IsLosslessOnSolidsOfEveryKindAndInPerspective) {
-    int smaller = 0;
+    int smaller = 0, packed_smaller = 0;
     for_each_solid_map([&](const Image<DepthInterval>& map, const std::string& name) {
-        expect_lossless(map, dag_params(), name);
         const MultiresTree tree = build_bottom_up(map.view());
-        smaller += encode_tree(tree, {}, dag_params()).bytes < encode_tree(tree, {}).bytes;
+        std::uint64_t bytes[2] = {};
+        for (const bool packed : {false, true}) {
+            const EncodeParams params = dag_params(4, packed ? 6 : 5, packed);
+            expect_lossless(map, params, name);
+            bytes[packed ? 1 : 0] = encode_tree(tree, {}, params).bytes;
+        }
+        smaller += bytes[0] < encode_tree(tree, {}).bytes;
+        packed_smaller += bytes[1] < bytes[0];
     });
     EXPECT_GT(smaller, 80);
+    EXPECT_GT(packed_smaller, 90);
 }
 
 TEST(Dag, IsLosslessOnDepthsWithoutWidth) {
@@ -136,6 +207,7 @@ TEST(Dag, IsLosslessOnDepthsWithoutWidth) {
     near(2, 0) = {0x1p-149f, 0x1p-149f};
     for (const Image<DepthInterval>* map : {&far, &near}) {
         expect_lossless(*map, dag_params(), "sheets");
+        expect_lossless(*map, dag_params(4, 6, true), "sheets");
         const ShadowTree dag = encode_tree(build_bottom_up(map->view()), {}, dag_params());
         EXPECT_EQ(dag.code.layout, map == &far ? TreeLayout::fractions : TreeLayout::float_bits);
     }
@@ -157,7 +229,7 @@ TEST(Dag, UnfoldsToTheTreeItWasMadeOf) {
 TEST(Dag, HasTheSameBytesForAnyThreads) {
     for (std::uint32_t seed = 1; seed <= 3; ++seed) {
         const MultiresTree tree = build_bottom_up(solid_interval_map(seed, 512, seed == 2).view());
-        EncodeParams params = dag_params();
+        EncodeParams params = dag_params(4, 5, seed != 2);
         params.exec.threads = 1;
         const ShadowTree first = encode_tree(tree, {}, params);
         for (const int threads : {2, 3, 7}) {
@@ -203,6 +275,21 @@ TEST(Dag, CountsWhatItConsistsOf) {
             EXPECT_EQ(stats.treelets, 1u) << "a node with a value and nothing below it";
         }
     }
+}
+
+/// More treelets and more nodes than short pointers reach, counts that need a byte and that need more.
+TEST(Dag, PacksPointersAndCountsOfEveryLength) {
+    const Image<DepthInterval> map = random_interval_map(7, 1024);
+    const MultiresTree tree = build_bottom_up(map.view());
+    const ShadowTree plain = encode_tree(tree, {}, dag_params(3, 5)),
+                     packed = encode_tree(tree, {}, dag_params(3, 5, true));
+    const DagStats stats = dag_stats(packed);
+    ASSERT_GT(stats.treelets, most_short_place) << "else long treelets' places are not seen";
+    ASSERT_GT(stats.inner_bytes, 8 * most_short_place);
+    EXPECT_EQ(stats.inner_nodes, dag_stats(plain).inner_nodes);
+    EXPECT_LT(stats.inner_bytes, dag_stats(plain).inner_bytes);
+    expect_same_topology(packed, tree);
+    expect_lossless(map, dag_params(3, 5, true), "all lengths");
 }
 
 // --- limits ------------------------------------------------------------------------------------------------
