@@ -20,6 +20,7 @@ namespace {
 constexpr std::uint64_t most_bytes = std::uint64_t{1} << 32;
 constexpr std::uint32_t bits_of_one = 0x3f800000;
 
+constexpr const char* other_values = "an inner node has other values than stated";
 constexpr const char* other_factors = "has other factors than its chunks ask for";
 constexpr const char* bad_class = "a chunk has a class that means nothing";
 constexpr const char* bad_header = "has parts that do not fit each other";
@@ -117,30 +118,32 @@ class Walk {
         in.add(under);
     }
 
-    std::uint32_t units_per_word() const { return form_.packed ? 2 : 1; }
+    std::uint64_t units_per_word() const { return form_.packed ? 4 : 1; }
+
+    /// The unit behind the node at `at`.
+    std::uint64_t end_of_node(std::uint32_t at) const {
+        if (form_.packed) return DagCode::packed_node_at(code_, at).end;
+        DagNode node;
+        node.kinds = word(at) & 0xffu;
+        return std::uint64_t{at} + form_.node_words() + node.children();
+    }
 
     /// Finds out where nodes begin.
     const char* find_nodes() {
-        const std::uint32_t end = header_.first_treelet * units_per_word();
+        const std::uint64_t end = header_.first_treelet * units_per_word();
         number_.assign(end, 0);
-        for (std::uint32_t at = dag_header_words * units_per_word(); at < end;) {
-            const DagCode::NodeHead node = DagCode::head_at(code_, form_, at);
-            // Half a word may be left.
-            if (form_.packed && at + 1 == end && node.kinds == 0 && node.values == 0 && !starts_.empty())
-                break;
-            starts_.push_back(at);
+        for (std::uint64_t at = dag_header_words * units_per_word(); at < end;) {
+            // Bytes that are left of a word are zeros, and no node has no children but the root.
+            if (form_.packed && !starts_.empty() && end - at < 4 && all_zeros(at, end)) break;
+            starts_.push_back(static_cast<std::uint32_t>(at));
             number_[at] = static_cast<std::uint32_t>(starts_.size());
-            at = node.pointers;
-            for (int c = 0; c < 4; ++c) {
-                const std::uint32_t kind = kind_at(node.kinds, c);
-                if (kind != 0 && at < end)
-                    at = DagCode::target_at(code_, form_, starts_.back(), at, kind).next;
-                else
-                    at += kind != 0;
-            }
+            at = end_of_node(starts_.back());
             if (at > end) return "an inner node is cut short";
         }
         return nullptr;
+    }
+    bool all_zeros(std::uint64_t at, std::uint64_t end) const {
+        return std::all_of(code_.units + at, code_.units + end, [](std::uint8_t byte) { return byte == 0; });
     }
 
     const char* visit_nodes() {
@@ -155,26 +158,35 @@ class Walk {
 
     const char* visit_node(std::size_t i) {
         const std::uint32_t at = starts_[i];
-        const DagCode::NodeHead node = DagCode::head_at(code_, form_, at);
-        if (node.kinds == 0 && i != 0) return "an inner node has no children";
+        const std::uint32_t head = DagCode::bytes_at(code_, std::uint64_t{at} << form_.unit_log2());
+        const std::uint32_t kinds = head & 0xffu;
+        if (kinds == 0 && i != 0) return "an inner node has no children";
+        if (form_.packed && (head >> 12 & 15u) != 0) return "an inner node has bits that mean nothing";
         Below& below = below_[i];
-        std::uint32_t pointer = node.pointers;
         for (int c = 0; c < 4; ++c) {
-            const std::uint32_t kind = kind_at(node.kinds, c);
-            if (kind == 0) continue;
-            const DagCode::Target target = DagCode::target_at(code_, form_, at, pointer, kind);
-            pointer = target.next;
+            const DagCode::Child to =
+                form_.packed ? DagCode::packed_child_at(code_, form_, at, c) : plain_child(at, kinds, c);
+            if (to.kind == 0) continue;
+            if (form_.packed && to.before != below.values) return other_values;
             Below child;
-            const char* fault = kind == static_cast<std::uint32_t>(DagKind::treelet)
-                                    ? visit_treelet(target.unit, child)
-                                    : visit_child(at, target.unit, kind, child);
+            const char* fault = to.kind == static_cast<std::uint32_t>(DagKind::treelet)
+                                    ? visit_treelet(to.unit, child)
+                                    : visit_child(at, to.unit, to.kind, child);
             if (fault != nullptr) return fault;
             below.add(child);
         }
         // Also what keeps the sums small: no more than 4^20 nodes of each kind and level.
         if (below.levels > code_.levels) return "an inner node at the height of texels";
-        if (form_.wide && word(at) >> 8 != 0) return "an inner node has bits that mean nothing";
-        return below.values == node.values ? nullptr : "an inner node has other values than stated";
+        if (form_.packed) return nullptr;
+        if (form_.wide && head >> 8 != 0) return "an inner node has bits that mean nothing";
+        return below.values == (form_.wide ? word(at + 1) : head >> 8) ? nullptr : other_values;
+    }
+    /// Without what stands before it, which only siblings that were looked at tell.
+    DagCode::Child plain_child(std::uint32_t at, std::uint32_t kinds, int c) const {
+        DagNode before;
+        before.kinds = kinds & ((1u << (2 * c)) - 1u);
+        const std::uint32_t kind = kind_at(kinds, c);
+        return {kind, kind == 0 ? 0 : word(std::uint64_t{at} + form_.node_words() + before.children()), 0};
     }
 
     const char* visit_treelet(std::uint32_t unit, Below& child) const {
@@ -289,17 +301,14 @@ const char* dag_fault_of(const ShadowTree& tree) {
 namespace {
 
 std::uint64_t count_nodes_of(const TreeCode& code, const DagForm& form, const DagHeader& header) {
-    const std::uint32_t per_word = form.packed ? 2 : 1, end = header.first_treelet * per_word;
+    const std::uint64_t per_word = form.packed ? 4 : 1, end = header.first_treelet * per_word;
     std::uint64_t count = 0;
-    for (std::uint32_t at = dag_header_words * per_word; at < end; ++count) {
-        const DagCode::NodeHead node = DagCode::head_at(code, form, at);
-        if (node.kinds == 0 && count != 0) break;  // half a word that is left
-        const std::uint32_t start = at;
-        at = node.pointers;
-        for (int c = 0; c < 4; ++c) {
-            const std::uint32_t kind = kind_at(node.kinds, c);
-            if (kind != 0) at = DagCode::target_at(code, form, start, at, kind).next;
-        }
+    for (std::uint64_t at = dag_header_words * per_word; at < end; ++count) {
+        const auto node = static_cast<std::uint32_t>(at);
+        DagNode own;
+        own.kinds = DagCode::bytes_at(code, at << form.unit_log2()) & 0xffu;
+        if (own.kinds == 0 && count != 0) break;  // what is left of a word
+        at = form.packed ? DagCode::packed_node_at(code, node).end : at + form.node_words() + own.children();
     }
     return count;
 }

@@ -170,21 +170,24 @@ class Emitter {
 
     void packed_node(std::size_t i) {
         const DagNode& node = dag_.nodes[i];
-        const bool escaped = node.values >= packed_count_escape;
-        const std::uint32_t count = escaped ? packed_count_escape : low(node.values);
-        put(static_cast<std::uint16_t>(node.kinds | count << 8));
-        if (escaped) put(low(node.values));
+        const PackedSizes& sizes = plan_.sizes[i];
+        put(static_cast<std::uint16_t>(node.kinds | (sizes.pointer - 1) << 8 | (sizes.count - 1) << 10));
+        bool first = true;
         for (int c = 0; c < 4; ++c) {
-            const DagKind kind = node.kind(c);
-            if (kind == DagKind::none) continue;
-            const std::uint64_t place =
-                kind == DagKind::treelet ? node.child[c] : plan_.node_at[node.child[c]] - plan_.node_at[i];
-            if (is_long_place(place)) {
-                put(low(place) << 1 | 1u);
-            } else {
-                put(static_cast<std::uint16_t>(place << 1));
-            }
+            if (node.kind(c) == DagKind::none) continue;
+            if (!first) put_bytes(node.before[c], sizes.count);
+            first = false;
         }
+        for (int c = 0; c < 4; ++c) {
+            if (node.kind(c) == DagKind::none) continue;
+            put_bytes(node.kind(c) == DagKind::treelet ? node.child[c]
+                                                       : plan_.node_at[node.child[c]] - plan_.node_at[i],
+                      sizes.pointer);
+        }
+    }
+    void put_bytes(std::uint64_t value, std::uint32_t size) {
+        std::memcpy(out_, &value, size);
+        out_ += size;
     }
 
     /// The bits, moved up by the count in front of them.

@@ -8,30 +8,27 @@
 //
 // in one of two forms. As the paper has it:
 //
-//   inner node   kinds of the four children 8 | values below it 24 | one word for each child that exists:
-//   where
+//   inner node   kinds of the four children 8 | values below it 24 | of each child that exists a word: where
 //                it stands, in words from the header; always behind its parent. Where a tree has too many
 //                values for 24 bits, every node has a word for their number after its first (`wide`).
 //   treelet      number of its values 9 | which nodes of a full tree of so many levels have one, depth-first
-//   chunk        representative 32 | c_l 32 | c_f 32 | bytes of a factor - 1 2, first factor 30 | which of
-//   its
-//                values have a factor, a bit each
+//   chunk        representative 32 | c_l 32 | c_f 32 | bytes of a factor - 1 2, first factor 30 | a bit for
+//                each value: it has a factor
 //   factors      bytes
 //
-// Packed, in half-words (16 bits), with the same treelets:
+// Packed, in bytes, with the same treelets:
 //
-//   inner node   kinds 8 | values below it 8, or 255 and then 32 | for each child that exists: 1, place 31;
-//   or
-//                0, place 15. A treelet's place is its number, a node's the half-words from its parent on.
+//   inner node   kinds 8 | bytes of a pointer - 1 2, bytes of a count - 1 2, zeros 4 | counts: of each child
+//                that exists but the first, the values below the node before it | pointers: of each child, a
+//                treelet's number or the bytes from the node's first to the child's
 //   chunk        where its part of the factors begins 32, bytes
 //   factors      of each chunk: classes - 1 2, bits of a factor of classes 0 to 3 6 each | of each class:
-//   base
-//                32, shift 8 | with more than one class, the low bits of all values' classes; with more than
-//                two, the high bits | factors, bits, in the order of the values, which are
+//                base 32, shift 8 | with more than one class, the low bits of all values' classes; with more
+//                than two, the high bits | factors, bits, in the order of the values, which are
 //                base + (factor << shift)
 //
-// Numbers of values are depth-first: a node's own stands before those below it, child by child. The root's is
-// 0.
+// Numbers of values are depth-first: a node's own stands before those below it, child by child. The root's
+// is 0.
 
 #include <cstdint>
 
@@ -64,11 +61,10 @@ struct DagForm {
         return static_cast<std::uint32_t>(treelet_levels) | static_cast<std::uint32_t>(chunk_log2) << 4 |
                (wide ? 256u : 0u) | (packed ? 512u : 0u);
     }
-    /// Nodes and treelets are named by their first unit, words or half-words, from the header on: this many
-    /// bits fewer than their first byte has.
-    constexpr int unit_log2() const { return packed ? 1 : 2; }
-    /// Words of a node before those of its children. Packed: half-words, where the count has no more.
-    constexpr std::uint32_t node_units() const { return wide ? 2 : 1; }
+    /// Nodes and treelets are named by their first unit, a word or packed a byte, from the header on.
+    constexpr int unit_log2() const { return packed ? 0 : 2; }
+    /// Not packed: words of a node before those of its children.
+    constexpr std::uint32_t node_words() const { return wide ? 2 : 1; }
     /// Records of chunks are bytes side by side: 18, 20, 24 or 32, or packed 4.
     constexpr std::uint32_t chunk_bytes() const { return packed ? 4u : 16u + (1u << chunk_log2) / 8u; }
 };
@@ -94,9 +90,12 @@ constexpr std::uint32_t treelet_words(int levels) {
 }
 static_assert(treelet_words(4) == 3 && treelet_words(max_treelet_levels) == 11);
 
-/// Packed: a count of 255 stands for one of 32 bits behind it.
-constexpr std::uint32_t packed_count_escape = 255;
-constexpr std::uint32_t most_short_place = (1u << 15) - 1;
+/// Packed: what a node begins with.
+constexpr std::uint32_t packed_node_bytes = 2;
+/// Bytes that a number takes, at least one.
+constexpr std::uint32_t bytes_of_number(std::uint64_t n) {
+    return n < 1u << 8 ? 1 : n < 1u << 16 ? 2 : n < 1u << 24 ? 3 : 4;
+}
 /// Packed: what the factors' bytes of a chunk begin with, and have for each class.
 constexpr std::uint32_t packed_head_bytes = 4, packed_class_bytes = 5, most_classes = 4;
 

@@ -54,72 +54,93 @@ OBSCURA_INLINE I32 number(std::uint32_t n) {
 
 /// First bytes of nodes or treelets, biased as these are.
 OBSCURA_INLINE I32 first_bytes(const DagForm& form, const I32& node) {
-    // The bias of the node leaves at the top.
-    return shift_left(node, form.unit_log2()) ^ splat(biased(0));
+    // The bias of a word leaves at the top.
+    return form.packed ? node : shift_left<2>(node) ^ splat(biased(0));
 }
 
-/// Where the pointers at these bytes lead; they then stand at the next ones.
-OBSCURA_INLINE I32 targets(const TreeCode& tree, const DagForm& form, const I32& node, const Mask& treelet,
-                           const Mask& wanted, I32& pointer) {
+/// DagCode::Child of sixteen nodes; what does not exist is of no account.
+struct Children16 {
+    I32 kind, unit, before;  ///< unit: biased
+};
+
+/// A word with so many low bytes set, 1 to 4.
+OBSCURA_INLINE I32 low_bytes(const I32& count) {
+    return shift_right_logical(splat(std::int32_t{-1}), splat(std::int32_t{32}) - shift_left<3>(count));
+}
+
+/// DagCode::packed_child_at() for the lanes of `at_node`.
+OBSCURA_INLINE Children16 packed_children(const TreeCode& tree, const DagForm& form, const I32& node,
+                                          const I32& bit, const Mask& at_node) {
     const std::uint8_t* bytes = biased_bytes(tree);
-    const I32 bits = gather_bytes<1>(bytes, select(wanted, pointer, first_bytes(form, node)));
-    if (!form.packed) {
-        pointer = pointer + splat(std::int32_t{4});
-        return bits ^ splat(biased(0));
+    const I32 zero = splat(std::int32_t{0}), one = splat(std::int32_t{1}), three = splat(std::int32_t{3});
+    const I32 head = gather_bytes<1>(bytes, node);
+    Children16 child{shift_right_logical(head, bit) & three, node, zero};
+    const Mask exists = at_node & ~equal(child.kind, zero);
+    const I32 existing = (head | shift_right_logical<1>(head)) & splat(std::int32_t{0x55});
+    const I32 below = existing & shift_right_logical(splat(std::int32_t{0x3f}), splat(std::int32_t{6}) - bit);
+    const auto children_of = [&](const I32& set) {
+        const I32 pairs =
+            (set & splat(std::int32_t{0x11})) + (shift_right_logical<2>(set) & splat(std::int32_t{0x11}));
+        return (pairs & three) + shift_right_logical<4>(pairs);
+    };
+    const I32 index = children_of(below);
+    const I32 pointer_bytes = (shift_right_logical<8>(head) & three) + one,
+              count_bytes = (shift_right_logical<10>(head) & three) + one;
+    const I32 counts = node + number(packed_node_bytes) - count_bytes;
+    const Mask later = exists & less(zero, index);
+    if (any(later)) {
+        const I32 count = gather_bytes<1>(bytes, select(later, counts + index * count_bytes, node));
+        child.before = select(later, count & low_bytes(count_bytes), zero);
     }
-    const Mask is_long = any_bit(bits, splat(std::int32_t{1}));
-    const I32 all = shift_right_logical<1>(bits);
-    const I32 place = select(is_long, all, all & number(most_short_place));
-    pointer = pointer + select(is_long, splat(std::int32_t{4}), splat(std::int32_t{2}));
-    const I32 of_treelet = place * number(2 * treelet_words(form.treelet_levels)) +
-                           number((2 * DagCode::header(tree).first_treelet) ^ index_bias);
-    return select(treelet, of_treelet, node + place);
+    const I32 pointers = counts + children_of(existing) * count_bytes;
+    const I32 place = gather_bytes<1>(bytes, select(exists, pointers + index * pointer_bytes, node)) &
+                      low_bytes(pointer_bytes);
+    const I32 treelet = place * number(4 * treelet_words(form.treelet_levels)) +
+                        number((4 * DagCode::header(tree).first_treelet) ^ index_bias);
+    child.unit = select(equal(child.kind, one), treelet, node + place);
+    return child;
+}
+
+/// DagCode::child_at() for the lanes of `at_node`.
+OBSCURA_INLINE Children16 children(const TreeCode& tree, const DagForm& form, const I32& node, const I32& bit,
+                                   const Mask& at_node) {
+    const std::uint8_t* base = biased_units<DagCode>(tree);
+    const I32 bias = splat(biased(0)), one = splat(std::int32_t{1}), zero = splat(std::int32_t{0});
+    const I32 header = gather_bytes<4>(base, node);
+    Children16 child{shift_right_logical(header, bit) & splat(std::int32_t{3}), node, zero};
+    I32 pointer = node + number(form.node_words());
+    for (int k = 0; k < 3; ++k) {
+        const I32 kind = shift_right(header, 2 * k) & splat(std::int32_t{3});
+        const Mask before = at_node & less(splat(2 * k), bit) & ~equal(kind, zero);
+        if (none(before)) continue;
+        const I32 sibling = select(before, gather_bytes<4>(base, select(before, pointer, node)) ^ bias, node);
+        const I32 head = gather_bytes<4>(base, sibling);
+        const I32 below = form.wide ? gather_bytes<4>(base, sibling + one) : shift_right_logical<8>(head);
+        const I32 values = select(equal(kind, one), head & number(treelet_count_mask), below + (kind & one));
+        child.before = select(before, child.before + values, child.before);
+        pointer = select(before, pointer + one, pointer);
+    }
+    const Mask exists = at_node & ~equal(child.kind, zero);
+    child.unit = gather_bytes<4>(base, select(exists, pointer, node)) ^ bias;
+    return child;
 }
 
 /// The lanes of `at_node`, which stand at inner nodes.
 OBSCURA_INLINE void descend_nodes(const TreeCode& tree, const DagForm& form, const I32& bit,
                                   const Mask& at_node, Descents16<DagCode>& d) {
-    const std::uint8_t* bytes = biased_bytes(tree);
-    const I32 bias = splat(biased(0)), one = splat(std::int32_t{1}), zero = splat(std::int32_t{0});
-    const I32 escape = number(packed_count_escape << 8);
-    const I32 first = first_bytes(form, d.node), header = gather_bytes<1>(bytes, first);
-    I32 pointer = first + number(form.packed ? 2 : 4 * form.node_units()), count = d.count;
-    if (form.packed) pointer = pointer + select(equal(header & escape, escape), splat(std::int32_t{4}), zero);
-    for (int k = 0; k < 3; ++k) {
-        const I32 kind = shift_right(header, 2 * k) & splat(std::int32_t{3});
-        const Mask before = at_node & less(splat(2 * k), bit) & ~equal(kind, zero);
-        if (none(before)) continue;
-        const Mask treelet = equal(kind, one);
-        I32 next = pointer;
-        const I32 to =
-            first_bytes(form, select(before, targets(tree, form, d.node, treelet, before, next), d.node));
-        const I32 head = gather_bytes<1>(bytes, to);
-        I32 below;
-        if (form.packed) {
-            below = shift_right_logical<8>(head) & splat(std::int32_t{255});
-            const Mask escaped = before & ~treelet & equal(head & escape, escape);
-            if (any(escaped))
-                below = select(escaped, gather_bytes<1>(bytes, to + splat(std::int32_t{2})), below);
-        } else {
-            below = form.wide ? gather_bytes<1>(bytes, to + splat(std::int32_t{4}))
-                              : shift_right_logical<8>(head);
-        }
-        const I32 values = select(treelet, head & number(treelet_count_mask), below + (kind & one));
-        count = select(before, count + values, count);
-        pointer = select(before, next, pointer);
-    }
-
-    const I32 kind = shift_right_logical(header, bit) & splat(std::int32_t{3});
-    const Mask exists = at_node & ~equal(kind, zero);
-    const Mask treelet = exists & equal(kind, one), node = exists & ~treelet;
-    const Mask full = node & any_bit(kind, one);
-    const I32 target = targets(tree, form, d.node, treelet, exists, pointer);
-    d.value = select(full, count ^ bias, d.value);
-    d.node = select(exists, target, d.node);
+    const I32 one = splat(std::int32_t{1}), zero = splat(std::int32_t{0});
+    const Children16 child = form.packed ? packed_children(tree, form, d.node, bit, at_node)
+                                         : children(tree, form, d.node, bit, at_node);
+    const Mask exists = at_node & ~equal(child.kind, zero);
+    const Mask treelet = exists & equal(child.kind, one), node = exists & ~treelet;
+    const Mask full = node & any_bit(child.kind, one);
+    const I32 count = d.count + child.before;
+    d.value = select(full, count ^ splat(biased(0)), d.value);
+    d.node = select(exists, child.unit, d.node);
     d.count = select(exists, count + select(full, one, zero), d.count);
     Mask more = node;
     if (any(treelet)) {
-        const I32 head = gather_bytes<1>(bytes, first_bytes(form, d.node));
+        const I32 head = gather_bytes<1>(biased_bytes(tree), first_bytes(form, d.node));
         const I32 own = shift_right_logical<treelet_count_bits>(head) & one;
         more = more | (treelet & less(own, head & number(treelet_count_mask)));
         const I32 start = number(inside_of(0, form.treelet_levels - 1));

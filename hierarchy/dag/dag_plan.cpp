@@ -1,26 +1,32 @@
 #include "hierarchy/dag/dag_plan.h"
 
+#include <algorithm>
+
 namespace obscura {
 namespace {
 
-/// Packed: half-words of node i, when those behind it stand `from_end` before the end of all nodes, as
-/// `node_from_end` tells. Pointers that become long make others longer, so it is looked at again.
-std::uint64_t packed_units(const DagTopology& dag, std::size_t i, std::uint64_t end,
-                           const std::vector<std::uint64_t>& node_from_end) {
+/// Packed: bytes of node i, behind which nodes take `end` bytes; node_from_end tells where each of these
+/// begins, counted back from the end of all. The longer its pointers, the farther off its children, so
+/// pointers of more bytes are tried until they reach.
+std::uint64_t packed_bytes(const DagTopology& dag, std::size_t i, std::uint64_t end,
+                           const std::vector<std::uint64_t>& node_from_end, PackedSizes& sizes) {
     const DagNode& node = dag.nodes[i];
-    const std::uint64_t head = node.values < packed_count_escape ? 1 : 3;
-    std::uint64_t units = head + node.children();
-    for (;;) {
-        std::uint64_t needed = head;
+    const std::uint64_t children = node.children();
+    if (children == 0) return packed_node_bytes;
+    sizes.count = bytes_of_number(node.before_last);
+    for (sizes.pointer = 1;; ++sizes.pointer) {
+        const std::uint64_t bytes =
+            packed_node_bytes + (children - 1) * sizes.count + children * sizes.pointer;
+        std::uint64_t farthest = 0;
         for (int c = 0; c < 4; ++c) {
             const DagKind kind = node.kind(c);
             if (kind == DagKind::none) continue;
-            const std::uint64_t place =
-                kind == DagKind::treelet ? node.child[c] : end + units - node_from_end[node.child[c]];
-            needed += is_long_place(place) ? 2 : 1;
+            farthest =
+                std::max(farthest, kind == DagKind::treelet ? std::uint64_t{node.child[c]}
+                                                            : end + bytes - node_from_end[node.child[c]]);
         }
-        if (needed == units) return units;
-        units = needed;
+        // Four bytes reach wherever lookups do; what is farther is refused.
+        if (bytes_of_number(farthest) <= sizes.pointer || sizes.pointer == 4) return bytes;
     }
 }
 
@@ -29,15 +35,16 @@ std::uint64_t packed_units(const DagTopology& dag, std::size_t i, std::uint64_t 
 DagPlan plan_of(const DagTopology& dag, const DagForm& form) {
     DagPlan plan;
     plan.form = form;
+    plan.sizes.resize(form.packed ? dag.nodes.size() : 0);
     // The first that was finished stands last; places are counted from the end until all is known.
     std::vector<std::uint64_t> from_end(dag.nodes.size());
     std::uint64_t end = 0;
     for (std::size_t i = 0; i < dag.nodes.size(); ++i) {
-        end +=
-            form.packed ? packed_units(dag, i, end, from_end) : form.node_units() + dag.nodes[i].children();
+        end += form.packed ? packed_bytes(dag, i, end, from_end, plan.sizes[i])
+                           : form.node_words() + dag.nodes[i].children();
         from_end[i] = end;
     }
-    const std::uint64_t per_word = form.packed ? 2 : 1, first = dag_header_words * per_word;
+    const std::uint64_t per_word = form.packed ? 4 : 1, first = dag_header_words * per_word;
     plan.node_at.resize(dag.nodes.size());
     for (std::size_t i = 0; i < dag.nodes.size(); ++i)
         plan.node_at[i] = first + end - from_end[i];

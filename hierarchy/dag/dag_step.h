@@ -55,68 +55,88 @@ struct DagCode {
         return depth_of_fixed(tree.layout, number_of(tree, place.value));
     }
 
-    /// What a node says before it tells where its children are.
-    struct NodeHead {
-        std::uint32_t kinds, values;
-        std::uint32_t pointers;  ///< unit of the first
-    };
-    static OBSCURA_TREE_INLINE NodeHead head_at(const TreeCode& tree, DagForm form, std::uint32_t node) {
-        const std::uint64_t byte = std::uint64_t{node} << form.unit_log2();
-        const std::uint32_t head = bytes_at(tree, byte);
-        if (form.packed) {
-            const std::uint32_t count = head >> 8 & 0xffu;
-            if (count != packed_count_escape) return {head & 0xffu, count, node + 1};
-            return {head & 0xffu, bytes_at(tree, byte + 2), node + 3};
-        }
-        return {head & 0xffu, form.wide ? bytes_at(tree, byte + 4) : head >> 8, node + form.node_units()};
-    }
-    struct Target {
-        std::uint32_t unit;
-        std::uint32_t next;  ///< unit of the pointer behind
-    };
-    static OBSCURA_TREE_INLINE Target target_at(const TreeCode& tree, DagForm form, std::uint32_t node,
-                                                std::uint32_t pointer, std::uint32_t kind) {
-        const std::uint32_t bits = bytes_at(tree, std::uint64_t{pointer} << form.unit_log2());
-        if (!form.packed) return {bits, pointer + 1};
-        const bool is_long = (bits & 1u) != 0;
-        const std::uint32_t place = is_long ? bits >> 1 : bits >> 1 & most_short_place;
-        const bool treelet = kind == static_cast<std::uint32_t>(DagKind::treelet);
-        return {treelet ? header(tree).first_treelet * 2 + place * treelet_words(form.treelet_levels) * 2
-                        : node + place,
-                pointer + (is_long ? 2 : 1)};
+    /// So many bytes, 1 to 4.
+    static OBSCURA_TREE_INLINE std::uint32_t number_at(const TreeCode& tree, std::uint64_t byte,
+                                                       std::uint32_t size) {
+        return bytes_at(tree, byte) & (0xffffffffu >> (32 - 8 * size));
     }
 
-    /// Values below what a child's pointer leads to, its own included.
-    static OBSCURA_TREE_INLINE std::uint32_t values_of(const TreeCode& tree, DagForm form,
-                                                       std::uint32_t target, std::uint32_t kind) {
-        if (kind == static_cast<std::uint32_t>(DagKind::treelet))
-            return bytes_at(tree, std::uint64_t{target} << form.unit_log2()) & treelet_count_mask;
-        return head_at(tree, form, target).values + (kind & 1u);
+    /// A packed node, and where its parts are: bytes.
+    struct PackedNode {
+        std::uint32_t kinds, existing, children;  ///< existing: a bit for each child, at its kind's first
+        std::uint32_t count_bytes, pointer_bytes;
+        std::uint64_t counts, pointers, end;
+    };
+    static OBSCURA_TREE_INLINE PackedNode packed_node_at(const TreeCode& tree, std::uint32_t node) {
+        const std::uint32_t head = bytes_at(tree, node), kinds = head & 0xffu;
+        PackedNode n;
+        n.kinds = kinds;
+        n.existing = (kinds | kinds >> 1) & 0x55u;
+        n.children = static_cast<std::uint32_t>(__builtin_popcount(n.existing));
+        n.pointer_bytes = (head >> 8 & 3u) + 1;
+        n.count_bytes = (head >> 10 & 3u) + 1;
+        n.counts = std::uint64_t{node} + packed_node_bytes;
+        n.pointers = n.counts + (n.children == 0 ? 0 : n.children - 1) * n.count_bytes;
+        n.end = n.pointers + n.children * n.pointer_bytes;
+        return n;
+    }
+    /// Where pointer `index` of a packed node leads.
+    static OBSCURA_TREE_INLINE std::uint32_t packed_target(const TreeCode& tree, DagForm form,
+                                                           std::uint32_t node, const PackedNode& n,
+                                                           std::uint32_t index, bool treelet) {
+        const std::uint32_t place = number_at(tree, n.pointers + index * n.pointer_bytes, n.pointer_bytes);
+        return treelet ? (header(tree).first_treelet + place * treelet_words(form.treelet_levels)) * 4
+                       : node + place;
+    }
+
+    /// A child, and how many values below its parent stand before its own.
+    struct Child {
+        std::uint32_t kind, unit, before;
+    };
+    static OBSCURA_TREE_INLINE Child packed_child_at(const TreeCode& tree, DagForm form, std::uint32_t node,
+                                                     int i) {
+        const PackedNode n = packed_node_at(tree, node);
+        const std::uint32_t kind = n.kinds >> (2 * i) & 3u;
+        if (kind == 0) return {0, 0, 0};
+        const auto index =
+            static_cast<std::uint32_t>(__builtin_popcount(n.existing & ((1u << (2 * i)) - 1u)));
+        return {
+            kind,
+            packed_target(tree, form, node, n, index, kind == static_cast<std::uint32_t>(DagKind::treelet)),
+            index == 0 ? 0 : number_at(tree, n.counts + (index - 1) * n.count_bytes, n.count_bytes)};
+    }
+    static OBSCURA_TREE_INLINE Child child_at(const TreeCode& tree, DagForm form, std::uint32_t node, int i) {
+        const std::uint32_t kinds = word(tree, node) & 0xffu;
+        Child child{kinds >> (2 * i) & 3u, 0, 0};
+        if (child.kind == 0) return child;
+        // The siblings before it, each with what is below it.
+        std::uint32_t pointer = node + form.node_words();
+        for (int k = 0; k < i; ++k) {
+            const std::uint32_t other = kinds >> (2 * k) & 3u;
+            if (other == 0) continue;
+            const std::uint32_t sibling = word(tree, pointer++), head = word(tree, sibling);
+            child.before += other == static_cast<std::uint32_t>(DagKind::treelet)
+                                ? head & treelet_count_mask
+                                : (form.wide ? word(tree, sibling + 1) : head >> 8) + (other & 1u);
+        }
+        child.unit = word(tree, pointer);
+        return child;
     }
 
     static OBSCURA_TREE_INLINE TreePlace child_of_node(const TreeCode& tree, TreePlace at, int i) {
         const DagForm form = form_of(tree);
-        const NodeHead node = head_at(tree, form, at.node);
-        const std::uint32_t kind = node.kinds >> (2 * i) & 3u;
-        if (kind == 0) return {no_tree_node, at.value, at.count, 0};
-        // The siblings before it, whose values stand before its own.
-        std::uint32_t pointer = node.pointers, count = at.count;
-        for (int k = 0; k < i; ++k) {
-            const std::uint32_t other = node.kinds >> (2 * k) & 3u;
-            if (other == 0) continue;
-            const Target sibling = target_at(tree, form, at.node, pointer, other);
-            count += values_of(tree, form, sibling.unit, other);
-            pointer = sibling.next;
+        const Child child =
+            form.packed ? packed_child_at(tree, form, at.node, i) : child_at(tree, form, at.node, i);
+        if (child.kind == 0) return {no_tree_node, at.value, at.count, 0};
+        const std::uint32_t count = at.count + child.before;
+        if (child.kind != static_cast<std::uint32_t>(DagKind::treelet)) {
+            const bool own = child.kind == static_cast<std::uint32_t>(DagKind::full);
+            return {child.unit, own ? count : at.value, count + (own ? 1u : 0u), 0};
         }
-        const std::uint32_t target = target_at(tree, form, at.node, pointer, kind).unit;
-        if (kind != static_cast<std::uint32_t>(DagKind::treelet)) {
-            const bool own = kind == static_cast<std::uint32_t>(DagKind::full);
-            return {target, own ? count : at.value, count + (own ? 1u : 0u), 0};
-        }
-        const std::uint32_t head = bytes_at(tree, std::uint64_t{target} << form.unit_log2());
+        const std::uint32_t head = bytes_at(tree, std::uint64_t{child.unit} << form.unit_log2());
         const std::uint32_t own = head >> treelet_count_bits & 1u;
         const bool more = (head & treelet_count_mask) > own;
-        return {more ? target : no_tree_node, own != 0 ? count : at.value, count,
+        return {more ? child.unit : no_tree_node, own != 0 ? count : at.value, count,
                 more ? inside_of(0, form.treelet_levels - 1) : 0};
     }
 

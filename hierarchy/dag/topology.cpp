@@ -79,6 +79,7 @@ class Merger {
         for (int i = 0; i < 4; ++i) {
             const ChildKind kind = parent.child(i);
             if (kind == ChildKind::none) continue;
+            node.before[i] = node.before_last = static_cast<std::uint32_t>(dag_.values.size() - before);
             if (levels_[child] <= dag_.treelet_levels) {
                 node.kinds |= static_cast<std::uint32_t>(DagKind::treelet) << (2 * i);
                 node.child[i] = treelet_at(child, kind);

@@ -33,9 +33,11 @@ struct Treelet {
 
 /// What hangs below inner nodes, once for all that have the same.
 struct DagNode {
-    std::uint32_t kinds = 0;      ///< DagKind, two bits each
-    std::uint32_t child[4] = {};  ///< of those that exist: index of a treelet, or of a node
-    std::uint64_t values = 0;     ///< below it
+    std::uint32_t kinds = 0;        ///< DagKind, two bits each
+    std::uint32_t child[4] = {};    ///< of those that exist: index of a treelet, or of a node
+    std::uint64_t values = 0;       ///< below it
+    std::uint32_t before[4] = {};   ///< of these before each child that exists
+    std::uint32_t before_last = 0;  ///< before the last
     DagKind kind(int i) const { return static_cast<DagKind>(kinds >> (2 * i) & 3u); }
     std::uint32_t children() const {
         return static_cast<std::uint32_t>(std::popcount((kinds | kinds >> 1) & 0x55u));

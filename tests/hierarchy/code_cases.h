@@ -185,7 +185,14 @@ class UnfoldingDag {
     /// At this byte.
     MultiresNode node(std::uint64_t first, MultiresTree& tree) {
         const std::uint32_t kinds = units_[first];
-        std::uint64_t at = first + (packed_ ? (units_[first + 1] == 255 ? 6 : 2) : wide_ ? 8 : 4);
+        std::uint64_t at = first + (wide_ ? 8 : 4);
+        if (packed_) {
+            // Behind the counts, which this walk has no use for.
+            std::uint32_t children = 0;
+            for (int i = 0; i < 4; ++i)
+                children += (kinds >> (2 * i) & 3u) != 0;
+            at = first + 2 + (children == 0 ? 0 : children - 1) * (units_[first + 1] / 4 % 4 + 1u);
+        }
         MultiresNode group[4];
         std::uint32_t kind[4] = {};
         for (int i = 0; i < 4; ++i) {
@@ -209,11 +216,11 @@ class UnfoldingDag {
             at += 4;
             return 4 * std::uint64_t{at_byte(at - 4)};
         }
-        const bool two = (units_[at] & 1) != 0;
-        const std::uint64_t place = two ? at_byte(at) / 2 : at_byte(at) % 65536 / 2;
-        at += two ? 4 : 2;
+        std::uint64_t place = 0;
+        for (int i = 0; i <= units_[node + 1] % 4; ++i)
+            place |= std::uint64_t{units_[at++]} << (8 * i);
         const std::uint64_t words = levels_ < 4 ? 1 : levels_ == 4 ? 3 : 11;
-        return to_treelet ? 4 * (word(0) + words * place) : node + 2 * place;
+        return to_treelet ? 4 * (word(0) + words * place) : node + place;
     }
 
     /// The node at this place of a full tree of so many levels; returns its kind.

@@ -88,16 +88,23 @@ TEST(DagFile, RefusesCraftedPackedGraphs) {
     EXPECT_EQ(fault(tree, first, 0), "accepted");
     EXPECT_EQ(fault(bits, first, 0), "accepted");
     EXPECT_EQ(fault(tree, 17, 1), "shadow tree 0: has an unknown form") << "wide and packed";
-    EXPECT_EQ(fault(tree, first + 1, 1), "shadow tree 0: an inner node has other values than stated");
-    // The root's first pointer, behind a byte of count: to itself, and by a half-word.
-    ASSERT_LT(tree.code.units[first + 1], packed_count_escape);
-    ASSERT_EQ(tree.code.units[first] & 3, 2) << "to a node";
-    EXPECT_EQ(
-        crafted(tree, [&](TreeRecord&, std::uint8_t* units) { units[first + 2] = units[first + 3] = 0; }),
-        "shadow tree 0: children do not follow their parent");
-    EXPECT_NE(fault(tree, first + 2, 2), "accepted");
-    EXPECT_NE(fault(tree, first + 2, 1), "accepted") << "a long one";
-    EXPECT_NE(fault(tree, first + 3, 100), "accepted");
+    EXPECT_NE(fault(tree, first + 1, 1), "accepted") << "pointers of more bytes";
+    EXPECT_NE(fault(tree, first + 1, 4), "accepted") << "counts of more bytes";
+    EXPECT_EQ(fault(tree, first + 1, 0x80), "shadow tree 0: an inner node has bits that mean nothing");
+    const DagCode::PackedNode node = DagCode::packed_node_at(tree.code, first);
+    ASSERT_EQ(node.children, 4u);
+    ASSERT_EQ(node.kinds & 3u, 2u) << "to a node";
+    EXPECT_EQ(fault(tree, node.counts, 1), "shadow tree 0: an inner node has other values than stated");
+    // The root's first pointer, to the root and elsewhere.
+    EXPECT_EQ(crafted(tree,
+                      [&](TreeRecord&, std::uint8_t* units) {
+                          std::memset(units + node.pointers, 0, node.pointer_bytes);
+                      }),
+              "shadow tree 0: children do not follow their parent");
+    EXPECT_EQ(fault(tree, node.pointers, 1), "shadow tree 0: a child is no inner node");
+    EXPECT_NE(fault(tree, node.pointers + node.pointer_bytes - 1, 1), "accepted");
+    EXPECT_EQ(fault(bits, 4 * word_at(bits.code.units, 0) - 1, 1) == "accepted", false)
+        << "what a word has left";
 
     const std::size_t record = 4 * word_at(bits.code.units, 1), chunk = 4 * word_at(bits.code.units, 2);
     EXPECT_EQ(fault(bits, record, 1), "shadow tree 0: factors do not follow each other");
