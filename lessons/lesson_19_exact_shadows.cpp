@@ -168,7 +168,7 @@ Image<Rgb8> lesson_19_exact_shadows(const Exec& exec) {
               "Shadows of the very points that the camera sees, found without a map: no stairs, no acne, no "
               "leaks.");
     const ExactScene scene = exact_scene();
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const std::vector<Casters> casters = build_casters(scene.mesh, scene.sun, exec, scratch);
     const ExactLight light =
         exact_light(scene.sun, casters, scene.mesh, camera_rays(scene.camera, exact_width, exact_height));

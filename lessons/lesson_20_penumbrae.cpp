@@ -46,7 +46,7 @@ Sunlight sunlight(const ExactScene& scene, const SeenPoints& seen, int count, co
     Light sun = scene.sun;
     sun.angular_diameter_deg = soft_sun_deg;
     const CameraRays rays = camera_rays(scene.camera, exact_width, exact_height);
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const std::vector<Casters> casters = build_casters(scene.mesh, sun, exec, scratch);
     const ExactLight middle = exact_light(sun, casters, scene.mesh, rays);
     const std::vector<Light> lights = light_samples(sun, count);

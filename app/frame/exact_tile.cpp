@@ -81,13 +81,16 @@ void ExactTile::run(const TileScene& scene, int column, int row, int first, int 
     for (std::size_t l = 0; l < scene.lights.size(); ++l) {
         if (!scene.lights[l].exact) continue;
         const Stopwatch watch;
-        work_.shadows(all, *scene.lights[l].exact, isa, lit_.data() + l * (room / 16), work.exact_counts);
+        const ExactLight& light = *scene.lights[l].exact;
+        std::uint32_t* lit = lit_.data() + l * (room / 16);
         if (scene.gathers()) {
             CHECK(count == 1, "samples of a pass are taken one by one");
             std::uint32_t* before = before_.data() + l * tile_samples;
             std::fill_n(before, tile_samples, no_triangle);
-            work_.nearest(all, *scene.lights[l].exact, isa, lit_.data() + l * (room / 16),
-                          {before, before_m_.data() + l * tile_samples}, work.exact_counts);
+            work_.nearest(all, light, isa, lit, {before, before_m_.data() + l * tile_samples},
+                          work.exact_counts);
+        } else {
+            work_.shadows(all, light, isa, lit, work.exact_counts);
         }
         if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
     }

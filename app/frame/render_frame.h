@@ -14,6 +14,7 @@
 #include "app/scene/scene.h"
 #include "core/isa.h"
 #include "hierarchy/codes/tree_file.h"
+#include "raster/exact/casters.h"
 #include "raster/surface.h"
 
 namespace obscura {
@@ -33,6 +34,7 @@ struct FrameCache {
     std::optional<TreeFileKey> geometry;   ///< geometry_key() of the mesh, once a cache asks
     std::optional<KeptPsf> psf;            ///< of the lens, once something glared
     RasterScratch camera_scratch, light_scratch;
+    CasterScratch caster_scratch;
     void forget() { *this = FrameCache{}; }
 };
 

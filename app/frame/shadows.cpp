@@ -111,8 +111,8 @@ bool build_map(const Work& work, LightShadow& shadow) {
 
 bool build_exact(const Work& work, LightShadow& shadow) {
     const Stopwatch watch;
-    shadow.exact = build_casters(work.scene.mesh, shadow.light.light, work.exec,
-                                 work.cache.light_scratch.setup, work.cancel);
+    shadow.exact =
+        build_casters(work.scene.mesh, shadow.light.light, work.exec, work.cache.caster_scratch, work.cancel);
     if (shadow.exact.empty()) return false;
     for (const Casters& view : shadow.exact) {
         shadow.stats.casters += static_cast<std::int64_t>(view.count);

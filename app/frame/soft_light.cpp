@@ -87,12 +87,19 @@ class Pass {
     }
 
     /// The tiles of the pass; null when cancelled. Adds to the seconds that making it takes.
-    const TileScene* make(const Exec& exec, const std::atomic<bool>* cancel, TriangleSetup& scratch,
+    const TileScene* make(const Exec& exec, const std::atomic<bool>* cancel, CasterScratch& scratch,
                           double& seconds) {
         const Stopwatch watch;
         const bool done = light_.middle ? see_vertices(exec) : order_casters(exec, cancel, scratch);
         seconds += watch.seconds();
         return done ? &tiles_ : nullptr;
+    }
+
+    /// Memory for the next.
+    void give_back(CasterScratch& scratch) {
+        for (auto& casters : casters_)
+            scratch.give_back(std::move(casters));
+        casters_.clear();
     }
 
   private:
@@ -107,7 +114,7 @@ class Pass {
     }
 
     /// Else each point has casters of its own. False when cancelled.
-    bool order_casters(const Exec& exec, const std::atomic<bool>* cancel, TriangleSetup& scratch) {
+    bool order_casters(const Exec& exec, const std::atomic<bool>* cancel, CasterScratch& scratch) {
         for (const Light& point : points_) {
             casters_.push_back(build_casters(*tiles_.casters, point, exec, scratch, cancel));
             if (casters_.back().empty()) return false;
@@ -203,7 +210,7 @@ int soft_passes(const TileScene& tiles) {
 bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomic<bool>* cancel,
                       std::span<LightShadowStats> stats,
                       const std::function<bool(const TileScene& pass)>& visit) {
-    TriangleSetup scratch;
+    CasterScratch scratch;
     for (const SoftLight& soft : tiles.soft) {
         const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
         const int together = soft_points_together(size_of(*tiles.casters), soft.middle.has_value());
@@ -214,6 +221,7 @@ bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomi
                 Pass pass(tiles, soft, stratum, begin, std::min(together, points - begin));
                 const TileScene* made = pass.make(exec, cancel, scratch, seconds);
                 if (made == nullptr || !visit(*made)) return false;
+                pass.give_back(scratch);
             }
         }
     }

@@ -37,7 +37,7 @@ class SunPass {
     }
 
     /// Puts what casts shadows in order, for each sun. False when cancelled.
-    bool make(const Exec& exec, const std::atomic<bool>* cancel, TriangleSetup& scratch) {
+    bool make(const Exec& exec, const std::atomic<bool>* cancel, CasterScratch& scratch) {
         casters_.reserve(steps_.size());
         for (const SunStep& step : steps_) {
             Light light = sun_;
@@ -49,6 +49,13 @@ class SunPass {
                 exact_light(light, casters_.back(), *tiles_.mesh, tiles_.rays);
         }
         return true;
+    }
+
+    /// Memory for the next.
+    void give_back(CasterScratch& scratch) {
+        for (auto& casters : casters_)
+            scratch.give_back(std::move(casters));
+        casters_.clear();
     }
 
     const TileScene& tiles() const { return tiles_; }
@@ -145,7 +152,7 @@ void add_sun_hours(const TileScene& tiles, const Light& sun, const FrameOptions&
     stats.passes = sun_passes(mesh, stats.suns);
 
     HoursSums sums{Image<double>(frame.width, frame.height), Image<std::uint8_t>(frame.width, frame.height)};
-    TriangleSetup scratch;
+    CasterScratch scratch;
     for (int p = 0; p < stats.passes && frame.complete; ++p) {
         const std::size_t begin = static_cast<std::size_t>(p) * together;
         SunPass pass(tiles, sun, std::span(steps).subspan(begin, std::min(together, steps.size() - begin)));
@@ -165,6 +172,7 @@ void add_sun_hours(const TileScene& tiles, const Light& sun, const FrameOptions&
         });
         for (const ExactCounts& n : counts)
             stats.exact += n;
+        pass.give_back(scratch);
     }
     frame.sun_hours = mean_hours(sums);
     stats.total_s = watch.seconds();

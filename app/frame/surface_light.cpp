@@ -206,9 +206,9 @@ class Exchange {
     /// when cancelled.
     bool ask(const PatchPoints& points, const std::vector<Asked>& lights, const SurfaceLight* sent,
              std::vector<Vec3f>& arriving) const {
-        TriangleSetup scratch;
+        CasterScratch scratch;
         for (const Asked& asked : lights) {
-            const auto casters = build_casters(scene_.mesh, asked.light, exec_, scratch, cancel_);
+            auto casters = build_casters(scene_.mesh, asked.light, exec_, scratch, cancel_);
             if (casters.empty()) return false;
             const ExactLight exact = exact_light(asked.light, casters, scene_.mesh, rays_);
             parallel_blocks(points.count(), points_together, exec_, [&](std::size_t begin, std::size_t end) {
@@ -216,8 +216,8 @@ class Exchange {
                 ExactWork work(static_cast<std::size_t>(part.count));
                 ExactCounts counts;
                 std::vector<std::uint32_t> lit(part.covered, part.covered + part.count / 16);
-                if (asked.shadows) work.shadows(part, exact, exec_.isa, lit.data(), counts);
                 if (sent == nullptr) {
+                    if (asked.shadows) work.shadows(part, exact, exec_.isa, lit.data(), counts);
                     add_light(points, asked.light, lit, begin, end, arriving);
                 } else {
                     std::vector<std::uint32_t> triangle(static_cast<std::size_t>(part.count), no_triangle);
@@ -228,6 +228,7 @@ class Exchange {
                              begin, end, arriving);
                 }
             });
+            scratch.give_back(std::move(casters));
         }
         return true;
     }

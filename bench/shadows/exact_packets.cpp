@@ -44,7 +44,7 @@ struct PacketState {
         : samples(samples_), exec(exec_), mesh(casting(scene.mesh)), device(exec_.threads) {
         // Casters only tell which samples ask.
         std::vector<std::vector<Casters>> casters;
-        TriangleSetup scratch;
+        CasterScratch scratch;
         for (const SceneLight& light : scene.lights) {
             if (!casts_shadows(light)) continue;
             casters.push_back(build_casters(scene.mesh, light.light, exec, scratch));

@@ -19,7 +19,7 @@ struct ExactState {
     const Scene& scene;
     const FrameSamples& samples;
     Exec exec;
-    TriangleSetup scratch;
+    CasterScratch scratch;
     std::vector<std::vector<Casters>> casters;  ///< per light with shadows
     std::vector<std::vector<std::uint32_t>> lit;
     std::vector<ExactCounts> counts;  ///< per tile

@@ -24,6 +24,14 @@ std::size_t groups_of(std::size_t n) {
     return (n + group - 1) / group;
 }
 
+/// Of boxes above so many groups: up to a single one.
+std::size_t levels_of(std::size_t groups) {
+    std::size_t levels = groups > 0 ? 1 : 0;
+    for (; groups > 1; groups = groups_of(groups))
+        ++levels;
+    return levels;
+}
+
 struct Box {
     std::int32_t x_low, x_high, y_low, y_high;
 };
@@ -64,7 +72,9 @@ std::uint64_t order_of(const TriangleRecord& t, std::int32_t steps) {
 /// that any number of threads scatters to the same places.
 class RecordOrder {
   public:
-    RecordOrder(const TriangleSetup& setup, std::int32_t steps, const Exec& exec) : exec_(exec) {
+    RecordOrder(CasterScratch& scratch, std::int32_t steps, const Exec& exec)
+        : exec_(exec), items_(scratch.items), other_(scratch.other_items) {
+        const TriangleSetup& setup = scratch.setup;
         std::vector<std::size_t> first(setup.blocks.size() + 1, 0);
         for (std::size_t b = 0; b < setup.blocks.size(); ++b)
             first[b + 1] = first[b] + setup.blocks[b].count;
@@ -109,7 +119,7 @@ class RecordOrder {
     }
 
     const Exec& exec_;
-    Buffer<std::uint64_t> items_, other_;
+    Buffer<std::uint64_t>&items_, &other_;
     std::vector<std::size_t> places_;
 };
 
@@ -121,25 +131,24 @@ Vec3d way_to_light(const Light& light, Vec3d p) {
 /// One view's casters being made.
 class Builder {
   public:
-    Builder(const Mesh& mesh, const Light& light, const Exec& exec, const TriangleSetup& setup)
-        : mesh_(mesh), light_(light), exec_(exec), setup_(setup) {}
+    Builder(const Mesh& mesh, const Light& light, const Exec& exec, CasterScratch& scratch)
+        : mesh_(mesh), light_(light), exec_(exec), scratch_(scratch) {}
 
     void run(Casters& casters) const {
-        const RecordOrder order(setup_, casters.view.width * subtexel_one, exec_);
+        const RecordOrder order(scratch_, casters.view.width * subtexel_one, exec_);
         casters.count = order.size();
-        casters.boxes.clear();
-        if (casters.count == 0) return;
         const std::size_t groups = groups_of(casters.count);
+        casters.boxes.resize(levels_of(groups));
+        if (groups == 0) return;
         casters.triangles.reset(groups * group);
-        casters.boxes.emplace_back(groups);
+        casters.boxes[0].reset(groups);
         parallel_blocks(groups, 256, exec_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t g = begin; g < end; ++g)
                 fill_group(order, g, casters);
         });
-        while (casters.boxes.back().size() > 1) {
-            Buffer<CasterBoxes> above(groups_of(casters.boxes.back().size()));
-            bound(casters.boxes.back(), above);
-            casters.boxes.push_back(std::move(above));
+        for (std::size_t l = 1; l < casters.boxes.size(); ++l) {
+            casters.boxes[l].reset(groups_of(casters.boxes[l - 1].size()));
+            bound(casters.boxes[l - 1], casters.boxes[l]);
         }
     }
 
@@ -153,7 +162,7 @@ class Builder {
                 set_empty(boxes, k);
                 continue;
             }
-            const TriangleRecord& t = setup_.records[order.record(i)];
+            const TriangleRecord& t = scratch_.setup.records[order.record(i)];
             casters.triangles[i] = caster(t);
             const Box b = box_of(t);
             boxes.x_low[k] = b.x_low;
@@ -207,7 +216,7 @@ class Builder {
     const Mesh& mesh_;
     const Light& light_;
     const Exec& exec_;
-    const TriangleSetup& setup_;
+    CasterScratch& scratch_;
 };
 
 }  // namespace
@@ -219,8 +228,13 @@ std::int64_t Casters::bytes() const {
     return static_cast<std::int64_t>(bytes);
 }
 
+void CasterScratch::give_back(std::vector<Casters> casters) {
+    for (Casters& c : casters)
+        spare.push_back(std::move(c));
+}
+
 std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const Exec& exec,
-                                   TriangleSetup& scratch, const std::atomic<bool>* cancel) {
+                                   CasterScratch& scratch, const std::atomic<bool>* cancel) {
     // Lamps' views a 2,048th wider than what they are for: which of six a point belongs to is found in
     // floats.
     const ShadowViewParams params{exact_view_texels, 1023};
@@ -229,6 +243,10 @@ std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const E
     for (const LightView& view : fitted_shadow_views(light, params, box)) {
         if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return {};
         Casters& casters = all.emplace_back();
+        if (!scratch.spare.empty()) {
+            casters = std::move(scratch.spare.back());
+            scratch.spare.pop_back();
+        }
         casters.view = view;
         SetupParams setup;
         setup.only_casters = true;
@@ -236,7 +254,7 @@ std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const E
         setup.depth_planes = false;
         // Another part of a light with a size sees what its middle sees along its plane.
         setup.keep_flat = has_size(light);
-        setup_triangles(mesh, view, setup, exec, scratch);
+        setup_triangles(mesh, view, setup, exec, scratch.setup);
         Builder(mesh, light, exec, scratch).run(casters);
     }
     return all;

@@ -2,6 +2,7 @@
 // What casts shadows, in the order that exact shadows look for it.
 
 #include <atomic>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,10 +29,20 @@ struct Casters {
     std::int64_t bytes() const;
 };
 
+/// What making casters needs meanwhile, and casters that are no longer asked: for lights in great number,
+/// whose pages had otherwise to be cleared for each.
+struct CasterScratch {
+    TriangleSetup setup;
+    Buffer<std::uint64_t> items, other_items;  ///< keys of records, and their numbers
+    std::vector<Casters> spare;                ///< their memory is taken first
+
+    void give_back(std::vector<Casters> casters);
+};
+
 /// Casters of every view that the light needs: one, or six of a point light; none when `cancel` was set
 /// before they were done. The same for any exec. The mesh needs its topology.
 std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const Exec& exec,
-                                   TriangleSetup& scratch, const std::atomic<bool>* cancel = nullptr);
+                                   CasterScratch& scratch, const std::atomic<bool>* cancel = nullptr);
 
 /// Bytes of so many triangles in order; and of what sorting takes meanwhile, beside setup_bytes().
 std::int64_t casters_bytes(std::int64_t triangles);

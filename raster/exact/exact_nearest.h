@@ -10,7 +10,7 @@
 
 namespace obscura {
 
-/// Arrays as long as ExactPoints. Only places of points that were asked are written.
+/// Arrays as long as ExactPoints. Only places of points that something darkens are written.
 struct ExactHits {
     std::uint32_t* triangle;  ///< index into the mesh
     float* distance_m;        ///< to it, from the point towards the light
@@ -39,15 +39,16 @@ struct ExactHits {
     return distance < than_distance || (distance == than_distance && triangle < than_triangle);
 }
 
-/// exact_unlit: points that face the light, or let it through, and have no bit in `lit`, become samples,
-/// those that are on the light's grid. exact_nearest, parallel light: the nearest triangle before each
-/// sample that some triangle darkens; no_triangle for others. Orders as exact_darken's; any order gives the
-/// same bits. Adds to `counts`.
-#define OBSCURA_EXACT_NEAREST                                                                           \
-    void exact_unlit(const ExactPoints& points, const ExactLight& light, const std::uint32_t* lit,      \
-                     ExactSamples& samples) noexcept;                                                   \
-    void exact_nearest(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples, \
-                       const std::uint32_t* order, const ExactHits& hits, ExactCounts& counts) noexcept;
+/// Shadows and what casts them, of parallel light, as exact_locate and exact_darken find shadows alone: the
+/// same bits of `lit`, and for each point that casters keep the light from, the nearest triangle before it.
+/// exact_locate_nearest: what stands together is done as it comes, the rest becomes samples; exact_nearest:
+/// those, in whatever order. Adds to `counts`.
+#define OBSCURA_EXACT_NEAREST                                                                            \
+    void exact_locate_nearest(const ExactPoints& points, const ExactLight& light, ExactSamples& samples, \
+                              std::uint32_t* lit, const ExactHits& hits, ExactCounts& counts) noexcept;  \
+    void exact_nearest(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples,  \
+                       const std::uint32_t* order, std::uint32_t* lit, const ExactHits& hits,            \
+                       ExactCounts& counts) noexcept;
 namespace ref {
 OBSCURA_EXACT_NEAREST
 }

@@ -3,9 +3,9 @@
 
 #include "raster/depth_tile.h"
 #include "raster/exact/exact_bunch.h"
+#include "raster/exact/exact_chunks.h"
 #include "raster/exact/exact_nearby.h"
 #include "raster/exact/exact_nearest.h"
-#include "raster/exact/exact_receivers.h"
 
 namespace obscura::OBSCURA_ISA {
 namespace {
@@ -16,6 +16,23 @@ struct Before {
     std::uint32_t triangle[16];
     float z_floor;  ///< what has no depth above it is nearer to the light than all that
 };
+
+OBSCURA_INLINE void reset(Before& before) {
+    for (int k = 0; k < lanes; ++k) {
+        before.distance[k] = __builtin_inf();
+        before.triangle[k] = no_triangle;
+    }
+    before.z_floor = -__builtin_inff();
+}
+
+/// What was found before one point.
+OBSCURA_INLINE void answer(std::uint32_t point, const Before& before, int k, std::uint32_t* lit,
+                           const ExactHits& hits) {
+    if (before.triangle[k] == no_triangle) return;
+    hits.triangle[point] = before.triangle[k];
+    hits.distance_m[point] = static_cast<float>(before.distance[k]);
+    lit[point / 16] &= ~(1u << (point % 16));
+}
 
 /// The least depth that a triangle must reach to be nearer to some open lane than what is known.
 OBSCURA_INLINE float floor_of(const ExactView& view, const Bunch& s, const Before& before) {
@@ -147,6 +164,16 @@ class Search {
         }
     }
 
+    /// The same where few are near all of them; else false, and nothing done.
+    bool run_if_few(Bunch* bunch, Before* before, int n) {
+        const int found = deepest_.collect(view_, extent_of(bunch, n), Nearby::room, counts_);
+        if (found > Nearby::room) return false;
+        put_nearby(found);
+        for (int b = 0; b < n; ++b)
+            take_nearby(bunch[b], before[b]);
+        return true;
+    }
+
   private:
     static Extent extent_of(const Bunch* bunch, int n) {
         Extent all = bunch[0].extent;
@@ -213,24 +240,31 @@ class Search {
 
 }  // namespace
 
-void exact_unlit(const ExactPoints& points, const ExactLight& light, const std::uint32_t* lit,
-                 ExactSamples& samples) noexcept {
-    samples.count = 0;
-    for (std::int32_t at = 0; at < points.count; at += lanes) {
-        if ((points.covered[at / 16] & ~lit[at / 16]) == 0) continue;
-        const Receivers r = receivers(points, light, at);
-        for (std::int32_t v = 0; v < light.views; ++v) {
-            std::uint32_t left = r.asking & ~lit[at / 16] & bits(equal(r.view, splat(v)));
-            if (left == 0 || light.view[v].levels == 0) continue;
-            const Located place = located(light, light.view[v], r.x, r.y, r.z, r.p, r.g);
-            left &= place.looks;
-            add_samples(place, at, left, v, samples);
-        }
-    }
+void exact_locate_nearest(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,
+                          std::uint32_t* lit, const ExactHits& hits, ExactCounts& counts) noexcept {
+    Before before[bunches];
+    locate_chunks(points, light, samples, lit,
+                  [&](const ExactView& view, std::int32_t v, Bunch* bunch, int n) {
+                      for (int b = 0; b < n; ++b)
+                          reset(before[b]);
+                      if (!Search(points, light, view, counts).run_if_few(bunch, before, n)) {
+                          for (int b = 0; b < n; ++b)
+                              append(bunch[b], v, samples);
+                          return;
+                      }
+                      for (int b = 0; b < n; ++b) {
+                          counts.samples += __builtin_popcount(bunch[b].open);
+                          for (std::uint32_t left = bunch[b].open; left != 0; left &= left - 1) {
+                              const int k = __builtin_ctz(left);
+                              answer(static_cast<std::uint32_t>(bunch[b].point[k]), before[b], k, lit, hits);
+                          }
+                      }
+                  });
 }
 
 void exact_nearest(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples,
-                   const std::uint32_t* order, const ExactHits& hits, ExactCounts& counts) noexcept {
+                   const std::uint32_t* order, std::uint32_t* lit, const ExactHits& hits,
+                   ExactCounts& counts) noexcept {
     Bunch bunch[bunches];
     Before before[bunches];
     std::int32_t next = 0;
@@ -238,19 +272,11 @@ void exact_nearest(const ExactPoints& points, const ExactLight& light, const Exa
         std::int32_t at = next;
         const std::uint8_t view = samples.view[order[next]];
         const int n = gather_bunches(points, light, samples, order, next, bunch);
-        for (int b = 0; b < n; ++b) {
-            for (int k = 0; k < lanes; ++k) {
-                before[b].distance[k] = __builtin_inf();
-                before[b].triangle[k] = no_triangle;
-            }
-            before[b].z_floor = -__builtin_inff();
-        }
+        for (int b = 0; b < n; ++b)
+            reset(before[b]);
         Search(points, light, light.view[view], counts).run(bunch, before, n);
-        for (int i = 0; at < next; ++i, ++at) {
-            const std::uint32_t point = samples.point[order[at]];
-            hits.triangle[point] = before[i / lanes].triangle[i % lanes];
-            hits.distance_m[point] = static_cast<float>(before[i / lanes].distance[i % lanes]);
-        }
+        for (int i = 0; at < next; ++i, ++at)
+            answer(samples.point[order[at]], before[i / lanes], i % lanes, lit, hits);
     }
     counts.samples += samples.count;
 }

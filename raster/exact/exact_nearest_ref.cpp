@@ -9,18 +9,20 @@
 
 namespace obscura::ref {
 
-void exact_unlit(const ExactPoints& points, const ExactLight& light, const std::uint32_t* lit,
-                 ExactSamples& samples) noexcept {
+void exact_locate_nearest(const ExactPoints& points, const ExactLight& light, ExactSamples& samples,
+                          std::uint32_t* lit, const ExactHits&, ExactCounts&) noexcept {
     samples.count = 0;
+    std::fill_n(lit, points.count / 16, 0u);
     for (int at = 0; at < points.count; ++at) {
-        if ((lit[at / 16] >> (at % 16) & 1u) != 0) continue;
         const Question q = question(points, light, at);
+        if (q.asks) lit[at / 16] |= 1u << (at % 16);
         if (q.looks) add_sample(q, samples);
     }
 }
 
 void exact_nearest(const ExactPoints& points, const ExactLight& light, const ExactSamples& samples,
-                   const std::uint32_t* order, const ExactHits& hits, ExactCounts& counts) noexcept {
+                   const std::uint32_t* order, std::uint32_t* lit, const ExactHits& hits,
+                   ExactCounts& counts) noexcept {
     for (std::int32_t k = 0; k < samples.count; ++k) {
         const std::uint32_t i = order[k], at = samples.point[i];
         const ExactView& view = light.view[samples.view[i]];
@@ -40,6 +42,8 @@ void exact_nearest(const ExactPoints& points, const ExactLight& light, const Exa
             nearest = distance;
             triangle = t.triangle;
         }
+        if (triangle == no_triangle) continue;
+        lit[at / 16] &= ~(1u << (at % 16));
         hits.triangle[at] = triangle;
         hits.distance_m[at] = static_cast<float>(nearest);
     }

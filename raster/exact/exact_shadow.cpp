@@ -62,13 +62,13 @@ void ExactWork::shadows(const ExactPoints& points, const ExactSoft& light, Isa i
                      static_cast<std::int32_t>(stride), counts);
 }
 
-void ExactWork::nearest(const ExactPoints& points, const ExactLight& light, Isa isa, const std::uint32_t* lit,
+void ExactWork::nearest(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
                         const ExactHits& hits, ExactCounts& counts) {
     CHECK(light.directional, "the nearest triangle is known for parallel light alone");
-    OBSCURA_DISPATCH(isa, exact_unlit, points, light, lit, samples_);
+    OBSCURA_DISPATCH(isa, exact_locate_nearest, points, light, samples_, lit, hits, counts);
     if (samples_.count == 0) return;
     sort_samples(light.views);
-    OBSCURA_DISPATCH(isa, exact_nearest, points, light, samples_, order_.data(), hits, counts);
+    OBSCURA_DISPATCH(isa, exact_nearest, points, light, samples_, order_.data(), lit, hits, counts);
 }
 
 float ExactWork::widest_penumbra(const ExactPoints& points, const ExactLight& light,

@@ -31,9 +31,9 @@ class ExactWork {
     void shadows(const ExactPoints& points, const ExactSoft& light, Isa isa, std::uint32_t* lit,
                  std::size_t stride, ExactCounts& counts);
 
-    /// The nearest triangle before each point that faces parallel light, or lets it through, and has no bit
-    /// in `lit`: shadows() of the same points and light. Others keep what hits has for them.
-    void nearest(const ExactPoints& points, const ExactLight& light, Isa isa, const std::uint32_t* lit,
+    /// shadows() of parallel light, and for each point that something darkens the nearest that does. Others
+    /// keep what hits has for them.
+    void nearest(const ExactPoints& points, const ExactLight& light, Isa isa, std::uint32_t* lit,
                  const ExactHits& hits, ExactCounts& counts);
 
     /// Width of the widest penumbra among the points, pixels, when it is less than stop_px; else that or

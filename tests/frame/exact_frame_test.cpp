@@ -115,7 +115,7 @@ TEST(ExactFrame, ATreeOfWhatStandsAndSamplesOfWhatMovesAreOneAnswer) {
     ASSERT_EQ(tiles.lights.size(), 1u);
 
     const Light& light = scene.lights[0].light;
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const auto everything_casts = build_casters(scene.mesh, light, exec, scratch);
     tiles.lights[0].exact = exact_light(light, everything_casts, scene.mesh, tiles.rays);
     const std::vector<float> alone = visibility_of(tiles);

@@ -16,7 +16,7 @@ namespace {
 /// pictures too.
 TEST(Lessons, LessonNineteensSamplesNeedNoMap) {
     const ExactScene scene = exact_scene();
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const std::vector<Casters> casters = build_casters(scene.mesh, scene.sun, {}, scratch);
     const ExactLight light =
         exact_light(scene.sun, casters, scene.mesh, camera_rays(scene.camera, exact_width, exact_height));

@@ -36,7 +36,9 @@ Hits hits_of(const ExactPoints& points, const ExactLight& light, Isa isa) {
     std::vector<std::uint32_t> lit(count / 16);
     work.shadows(points, light, isa, lit.data(), counts);
     Hits hits(count);
-    work.nearest(points, light, isa, lit.data(), hits.view(), counts);
+    std::vector<std::uint32_t> lit_beside(count / 16, 0xaaaau);
+    work.nearest(points, light, isa, lit_beside.data(), hits.view(), counts);
+    EXPECT_EQ(lit_beside, lit) << isa_name(isa);
     return hits;
 }
 
@@ -54,7 +56,7 @@ void compare(unsigned seed, Seen& sum) {
     light.kind = LightKind::directional;
     light.direction = normalize(source.in(-1, 1));
     const Vec3d eye = origin + source.in(-4, 7) * unit;
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const auto casters = build_casters(mesh, light, {}, scratch);
     const ExactLight exact =
         exact_light(light, casters, mesh, rays_from(eye, std::pow(10, source.between(-4, -2))));
@@ -113,7 +115,7 @@ TEST(ExactNearest, InColumnsOfAnyNumber) {
         Light light;
         light.kind = LightKind::directional;
         light.direction = normalize(Vec3d{0.02, -1, 0.01});
-        TriangleSetup scratch;
+        CasterScratch scratch;
         const auto casters = build_casters(mesh, light, {}, scratch);
         const ExactLight exact = exact_light(light, casters, mesh, rays_from({0, 40, 60}, 1e-3));
         const Points drawn = draw_points(source, mesh, {0, 40, 60}, 160);
@@ -134,7 +136,7 @@ TEST(ExactNearest, WantsParallelLight) {
     Light light;
     light.kind = LightKind::point;
     light.position = {0, 50, 0};
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const auto casters = build_casters(mesh, light, {}, scratch);
     const ExactLight exact = exact_light(light, casters, mesh, rays_from({0, 9, 9}, 1e-3));
     const Points drawn = draw_points(source, mesh, {0, 9, 9}, 16);

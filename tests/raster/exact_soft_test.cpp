@@ -68,7 +68,7 @@ Drawn draw(unsigned seed, int count) {
 /// lit[part] of every word of points, as parts of one light.
 std::vector<std::uint32_t> together(const Drawn& d, const std::vector<Light>& parts, Isa isa,
                                     ExactCounts& counts) {
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const Exec exec{isa, 1};
     const auto casters = build_casters(d.mesh, d.light, exec, scratch);
     const ExactLight middle = exact_light(d.light, casters, d.mesh, d.rays);
@@ -87,7 +87,7 @@ std::vector<std::uint32_t> one_by_one(const Drawn& d, const std::vector<Light>& 
     const std::size_t words = d.points.covered.size();
     ExactWork work(words * 16);
     for (const Light& part : parts) {
-        TriangleSetup scratch;
+        CasterScratch scratch;
         ExactCounts counts;
         const auto casters = build_casters(d.mesh, part, Exec{isa, 1}, scratch);
         const ExactLight light = exact_light(part, casters, d.mesh, d.rays);
@@ -164,7 +164,7 @@ TEST(ExactSoft, PenumbraeAreAsWideAsTheyAre) {
         // Along the floor, out to the right, below the square's edge.
         for (int i = 0; i < 16; ++i)
             points.add({0.99 + 0.001 * i, 0, 0}, {0, 1, 0}, mesh.face[0], 0, false);
-        TriangleSetup scratch;
+        CasterScratch scratch;
         const auto casters = build_casters(mesh, light, Exec{}, scratch);
         const ExactLight middle = exact_light(light, casters, mesh, rays);
         const double tangent = num::tan(0.5 * angle * num::pi / 180);

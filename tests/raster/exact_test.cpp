@@ -40,7 +40,7 @@ void compare(unsigned seed, int count, Outcome& sum) {
     const Light light = draw_light(source, mesh, unit, origin);
     // Near by, or so far that positions relative to it are coarse.
     const Vec3d eye = origin + source.in(-4, 7) * (unit * (source.below(4) == 0 ? 300 : 1));
-    TriangleSetup scratch;
+    CasterScratch scratch;
     const Exec exec;
     const auto casters = build_casters(mesh, light, exec, scratch);
     const double pixel = std::pow(10, source.between(-4, -2));
