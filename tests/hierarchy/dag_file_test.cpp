@@ -119,6 +119,29 @@ TEST(DagFile, RefusesCraftedPackedGraphs) {
     EXPECT_NE(crafted(bits, shorter), "accepted");
 }
 
+TEST(DagFile, RefusesAClassThatAChunkDoesNotHave) {
+    // A root alone, whose value is of class `of` of three.
+    const auto fault = [](std::uint32_t of) {
+        std::vector<std::uint8_t> bytes(4 * 7 + 4 + 3 * 5 + 2 * 2 + tree_slack_bytes);
+        const DagHeader header{6, 6, 7, 1, DagForm{4, 4, false, true}.bits()};
+        std::memcpy(bytes.data(), &header, sizeof header);
+        bytes[28] = 2;
+        bytes[28 + 4 + 15] = static_cast<std::uint8_t>(of & 1u);
+        bytes[28 + 4 + 15 + 2] = static_cast<std::uint8_t>(of >> 1);
+        ShadowTree tree;
+        tree.bytes = bytes.size() - tree_slack_bytes;
+        tree.counts = {0, 0, 1};
+        tree.code.units = bytes.data();
+        tree.code.code = ShadowCode::dag;
+        tree.code.layout = TreeLayout::fractions;
+        const char* text = dag_fault_of(tree);
+        return std::string(text == nullptr ? "sound" : text);
+    };
+    for (const std::uint32_t of : {0u, 1u, 2u})
+        EXPECT_EQ(fault(of), "sound") << of;
+    EXPECT_EQ(fault(3), "a chunk has a class that means nothing");
+}
+
 TEST(DagFile, RefusesRecordsOfOtherTrees) {
     const ShadowTree tree = small_tree(dag_case);
     const auto with = [&](const auto& change) {
