@@ -1,6 +1,7 @@
 #include "hierarchy/dag/classes.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 #include "core/error.h"
@@ -10,7 +11,7 @@ namespace obscura {
 namespace {
 
 constexpr std::uint32_t most_ranges = 1u << max_chunk_log2;
-constexpr std::uint64_t out_of_reach = ~std::uint64_t{0} / 2;
+constexpr std::uint32_t out_of_reach = 1u << 30;  // bits: more than any chunk has
 
 /// Planes of class bits that so many classes need.
 constexpr std::uint32_t planes_of(std::size_t classes) {
@@ -23,15 +24,21 @@ int widest_shift(NumberRange range) {
     return static_cast<int>(std::bit_width((range.least - 1) ^ range.greatest)) - 1;
 }
 
-/// What ranges that are one class have in common, range by range.
+struct Item {
+    NumberRange range;
+    std::uint32_t at;  ///< which of the chunk's values
+    int shift;         ///< widest_shift(range)
+};
+
+/// What items that are one class have in common, item by item.
 struct Common {
     int shift = 31;  ///< all hold a multiple of 2^shift
     std::uint32_t least_last = ~0u, greatest_first = 0;
 
-    void add(NumberRange range) {
-        shift = std::min(shift, widest_shift(range));
-        least_last = std::min(least_last, range.greatest);
-        greatest_first = std::max(greatest_first, range.least);
+    void add(const Item& item) {
+        shift = std::min(shift, item.shift);
+        least_last = std::min(least_last, item.range.greatest);
+        greatest_first = std::max(greatest_first, item.range.least);
     }
     bool one_number() const { return greatest_first <= least_last; }
     std::uint32_t width() const {
@@ -46,11 +53,6 @@ struct Common {
     }
 };
 
-struct Item {
-    NumberRange range;
-    std::uint32_t at;  ///< which of the chunk's values
-};
-
 /// Cuts items, in their order, into classes.
 class Cut {
   public:
@@ -63,33 +65,35 @@ class Cut {
     }
 
     /// Least bits of factors in 0 to `most` classes, where they are fewer than `bound`.
-    void run(std::size_t most, std::uint64_t bound) {
-        bits_.assign((most + 1) * (count_ + 1), out_of_reach);
-        from_.assign(bits_.size(), 0);
-        bits_[0] = 0;
+    void run(std::size_t most, std::uint32_t bound) {
+        for (std::size_t held = 0; held <= count_; ++held)
+            best_[held].bits.fill(out_of_reach);
+        best_[0].bits[0] = 0;
         for (std::size_t first = 0; first < count_; ++first) {
+            const Best& before = best_[first];
+            const std::uint32_t least = *std::min_element(before.bits.begin(), before.bits.begin() + most);
             Common common;
             for (std::size_t last = first; last < count_; ++last) {
-                common.add(items_[last].range);
-                const std::uint64_t bits = (last + 1 - first) * common.width();
-                if (bits >= bound) break;  // longer ones have no fewer
+                common.add(items_[last]);
+                const std::uint32_t bits = static_cast<std::uint32_t>(last + 1 - first) * common.width();
+                if (least + bits >= bound) break;  // longer ones have no fewer
+                Best& after = best_[last + 1];
                 for (std::size_t k = 0; k < most; ++k) {
-                    const std::uint64_t sum = bits_[at(k, first)] + bits;
-                    if (sum >= bits_[at(k + 1, last + 1)]) continue;
-                    bits_[at(k + 1, last + 1)] = sum;
-                    from_[at(k + 1, last + 1)] = static_cast<std::uint32_t>(first);
+                    if (before.bits[k] + bits >= after.bits[k + 1]) continue;
+                    after.bits[k + 1] = before.bits[k] + bits;
+                    after.first[k + 1] = static_cast<std::uint8_t>(first);
                 }
             }
         }
     }
-    std::uint64_t bits(std::size_t classes) const { return bits_[at(classes, count_)]; }
+    std::uint32_t bits(std::size_t classes) const { return best_[count_].bits[classes]; }
 
     /// The items of each class, when there are so many.
     std::vector<std::span<const Item>> parts(std::size_t classes) const {
         std::vector<std::span<const Item>> parts(classes);
         std::size_t end = count_;
         for (std::size_t k = classes; k > 0; --k) {
-            const std::size_t first = from_[at(k, end)];
+            const std::size_t first = best_[end].first[k];
             parts[k - 1] = std::span(items_).subspan(first, end - first);
             end = first;
         }
@@ -97,51 +101,76 @@ class Cut {
     }
 
   private:
-    std::size_t at(std::size_t classes, std::size_t items) const { return classes * (count_ + 1) + items; }
+    /// Of the first so many items, by how many classes they are cut into.
+    struct Best {
+        std::array<std::uint32_t, most_classes + 1> bits;
+        std::array<std::uint8_t, most_classes + 1> first;  ///< item of the last class
+    };
 
     std::vector<Item> items_;
     std::size_t count_;
-    std::vector<std::uint64_t> bits_;  ///< by classes, then by how many items they hold
-    std::vector<std::uint32_t> from_;  ///< of the same: the first item of the last class
+    std::array<Best, most_ranges + 1> best_;
 };
 
 class Chooser {
   public:
     Chooser(std::span<const NumberRange> ranges, TreeLayout layout, int chunk_log2)
-        : layout_(layout), plane_bits_(std::uint64_t{1} << chunk_log2) {
+        : layout_(layout), plane_bits_(1u << chunk_log2) {
         for (std::uint32_t i = 0; i < ranges.size(); ++i)
-            items_.push_back({ranges[i], i});
+            items_.push_back({ranges[i], i, widest_shift(ranges[i])});
         chunk_.class_of.resize(ranges.size());
         chunk_.factors.resize(ranges.size());
     }
 
     ClassedChunk run() {
-        std::vector<Item> rest = items_;
-        std::vector<Item> best_rest;
-        std::vector<ValueClass> held, best_held;
-        std::uint64_t least = out_of_reach;
+        std::vector<Stage> stages{{{}, items_}};
+        while (!stages.back().rest.empty() && stages.size() < most_classes)
+            stages.push_back(next_stage(stages.back()));
+
+        // All that is left in one class: no more than this is looked at.
+        std::uint32_t least = out_of_reach;
+        for (const Stage& stage : stages) {
+            Common common;
+            for (const Item& item : stage.rest)
+                common.add(item);
+            const auto count = static_cast<std::uint32_t>(stage.rest.size());
+            const std::size_t classes = stage.held.size() + (count == 0 ? 0 : 1);
+            least = std::min(least, count * common.width() + overhead(classes) + 1);
+        }
+
+        const Stage* best = nullptr;
         std::size_t best_classes = 0;
-        for (;;) {
-            Cut cut(rest);
-            cut.run(most_classes - held.size(), least);
-            for (std::size_t k = 0; k + held.size() <= most_classes; ++k) {
-                if (k + held.size() == 0) continue;
-                const std::uint64_t bits = cut.bits(k) + overhead(k + held.size());
+        for (const Stage& stage : stages) {
+            const std::size_t held = stage.held.size();
+            Cut cut(stage.rest);
+            cut.run(most_classes - held, least);
+            for (std::size_t k = held == 0 ? 1 : 0; k + held <= most_classes; ++k) {
+                const std::uint32_t bits = cut.bits(k) + overhead(k + held);
                 if (bits >= least) continue;
                 least = bits;
+                best = &stage;
                 best_classes = k;
-                best_held = held;
-                best_rest = rest;
             }
-            if (rest.empty() || held.size() == most_classes - 1) break;
-            held.push_back({stored_number(most_held(ranges_of(rest)), layout_), 0, 0});
-            std::erase_if(rest, [&](const Item& item) { return holds(item.range, held.back().base); });
         }
-        settle(best_held, best_rest, best_classes);
+        CHECK(best != nullptr);
+        settle(best->held, best->rest, best_classes);
         return std::move(chunk_);
     }
 
   private:
+    /// Numbers that are classes of their own, and what none of them serves.
+    struct Stage {
+        std::vector<ValueClass> held;
+        std::vector<Item> rest;
+    };
+    Stage next_stage(const Stage& before) const {
+        Stage stage = before;
+        const std::uint32_t number = stored_number(most_held(ranges_of(before.rest)), layout_);
+        stage.held.push_back({number, 0, 0});
+        std::erase_if(stage.rest, [&](const Item& item) { return holds(item.range, number); });
+        return stage;
+    }
+
     static bool holds(NumberRange range, std::uint32_t v) { return range.least <= v && v <= range.greatest; }
     static std::vector<NumberRange> ranges_of(const std::vector<Item>& items) {
         std::vector<NumberRange> ranges;
@@ -149,8 +178,9 @@ class Chooser {
             ranges.push_back(item.range);
         return ranges;
     }
-    std::uint64_t overhead(std::size_t classes) const {
-        return classes * packed_class_bytes * 8 + planes_of(classes) * plane_bits_;
+    std::uint32_t overhead(std::size_t classes) const {
+        return static_cast<std::uint32_t>(classes) * packed_class_bytes * 8 +
+               planes_of(classes) * plane_bits_;
     }
 
     void settle(const std::vector<ValueClass>& held, const std::vector<Item>& rest, std::size_t classes) {
@@ -171,7 +201,7 @@ class Chooser {
         for (const std::span<const Item> part : cut.parts(classes)) {
             Common common;
             for (const Item& item : part)
-                common.add(item.range);
+                common.add(item);
             const ValueClass of = common.as_class(layout_);
             for (const Item& item : part) {
                 chunk_.class_of[item.at] = static_cast<std::uint8_t>(chunk_.classes.size());
@@ -196,7 +226,7 @@ class Chooser {
     }
 
     const TreeLayout layout_;
-    const std::uint64_t plane_bits_;
+    const std::uint32_t plane_bits_;
     std::vector<Item> items_;
     ClassedChunk chunk_;
 };
