@@ -15,6 +15,7 @@
 namespace obscura {
 
 struct ImageSky;
+struct EmitterSurface;
 
 /// A decoded texture, linear-light RGB with its mip chain (level 0 first; each level halves, rounding up
 /// to 1; 2 x 2 box filter).
@@ -46,7 +47,7 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
-enum class LightKind { directional, sun, point, spot, area };
+enum class LightKind { directional, sun, point, spot, area, surface };
 
 /// Whether all of the light travels one way: it then has no position and reaches everywhere.
 constexpr bool is_parallel(LightKind kind) {
@@ -56,7 +57,7 @@ constexpr bool is_parallel(LightKind kind) {
 /// How many square views a shadow map needs to see what the light sees: the faces of a cube, where that may
 /// be anywhere.
 constexpr int shadow_view_count(LightKind kind) {
-    return kind == LightKind::point || kind == LightKind::area ? 6 : 1;
+    return is_parallel(kind) || kind == LightKind::spot ? 1 : 6;
 }
 
 /// Outline of an area light: a rectangle, or the ellipse in it.
@@ -67,9 +68,10 @@ struct Light {
     LightKind kind = LightKind::directional;
     Vec3d direction{0, -1,
                     0};       ///< unit, the way the light travels (directional, sun, spot; area: its normal)
-    Vec3d position{0, 0, 0};  ///< metres (point, spot; area: its middle)
-    Vec3f color{1, 1, 1};     ///< irradiance in W/m^2 per channel on a facing surface (directional, sun),
-                              ///< radiant intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area)
+    Vec3d position{0, 0, 0};  ///< metres (point, spot; area, surface: its middle)
+    Vec3f color{1, 1,
+                1};  ///< irradiance in W/m^2 per channel on a facing surface (directional, sun),
+                     ///< radiant intensity in W/sr (point, spot), or radiance in W/(m^2 sr) (area, surface)
     double inner_cone_deg = 20, outer_cone_deg = 30;  ///< spot: half angles; full power inside, none outside
     double near_m = 0.05,
            range_m = 100;         ///< with a position: shadow depth range; light ends smoothly at range_m
@@ -82,6 +84,8 @@ struct Light {
     Vec3d across{1, 0, 0};                   ///< unit, along its width, at right angles to `direction`
     double width_m = 1, height_m = 1;        ///< whole sides, or axes of the ellipse
     bool two_sided = false;                  ///< also shines against `direction`
+    std::string material;                    ///< surface: what has it shines, as bright as its emission says;
+    std::shared_ptr<const EmitterSurface> surface;  ///< all of that, and null in a file's own light
     double part = 1;  ///< area: of its surface, shining from `position` (raster/light_samples.h)
     friend bool operator==(const Light&, const Light&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/emitter_surface.h"
 #include "core/error.h"
 #include "core/num.h"
 
@@ -96,20 +97,40 @@ Light sample_of(const Light& light, int k, int count) {
             one.part = share;
             break;
         }
+        case LightKind::surface:
+            break;
     }
     return one;
+}
+
+/// Of a surface, small area lights which lie on it.
+std::vector<Light> surface_samples(const Light& light, int count) {
+    std::vector<Light> samples;
+    for (const EmitterPoint& p : emitter_points(*light.surface, count)) {
+        Light& one = samples.emplace_back(light);
+        one.kind = LightKind::area;
+        one.position = p.position;
+        one.direction = p.normal;
+        one.across = across(p.normal).u;
+        one.width_m = one.height_m = std::sqrt(light.surface->area_m2);
+        one.part = p.share;
+        one.surface = nullptr;
+    }
+    return samples;
 }
 
 }  // namespace
 
 bool has_size(const Light& light) {
     if (is_parallel(light.kind)) return light.angular_diameter_deg > 0;
+    if (light.kind == LightKind::surface) return light.surface != nullptr && !light.surface->pieces.empty();
     return light.kind == LightKind::area ? light.part == 1 : light.radius_m > 0;
 }
 
 std::vector<Light> light_samples(const Light& light, int count) {
     CHECK(count >= 1);
     if (!has_size(light) || count == 1) return {light};
+    if (light.kind == LightKind::surface) return surface_samples(light, count);
     std::vector<Light> samples;
     samples.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k)

@@ -19,7 +19,7 @@ bool has_size(const Light& light);
 /// in space or in the sky, a sunflower (H. Vogel, "A better way to construct the sunflower head",
 /// Mathematical Biosciences 44, 1979), each of as much of it. A ball's lie as densely as 1 / sqrt(R^2 - r^2),
 /// which from any side looks like a disc equally bright everywhere (the Abel transform's inverse of a
-/// constant).
+/// constant). A surface's are small area lights on it (core/emitter_surface.h).
 std::vector<Light> light_samples(const Light& light, int count);
 
 }  // namespace obscura

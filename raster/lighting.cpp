@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/emitter_surface.h"
 #include "core/num.h"
 #include "core/vec_arrays.h"
 
@@ -34,7 +35,7 @@ ShadeLight shade_light_of(const Light& light, Vec3d eye) {
     set(s.to_light, to_float(-normalize(light.direction)));
     set(s.color, light.color);
     if (!is_parallel(light.kind)) {
-        s.kind = light.kind == LightKind::point ? ShadeLightKind::point : ShadeLightKind::spot;
+        s.kind = light.kind == LightKind::spot ? ShadeLightKind::spot : ShadeLightKind::point;
         set(s.position, to_float(light.position - eye));
         s.inv_range2 = static_cast<float>(1.0 / (light.range_m * light.range_m));
     }
@@ -45,6 +46,10 @@ ShadeLight shade_light_of(const Light& light, Vec3d eye) {
         s.radius2 = static_cast<float>(patch_m2 / num::pi);
         s.two_sided = light.two_sided ? 1.0f : 0.0f;
     }
+    // Seen from its middle alone: a point that gives off as much. A surface's flux is pi L A, a point's 4 pi
+    // I.
+    if (light.kind == LightKind::surface && light.surface != nullptr)
+        set(s.color, light.color * static_cast<float>(light.surface->area_m2 / 4));
     if (light.kind == LightKind::spot) {
         const double outer = num::cos_deg(light.outer_cone_deg), inner = num::cos_deg(light.inner_cone_deg);
         s.cos_outer = static_cast<float>(outer);

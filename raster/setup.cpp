@@ -173,6 +173,7 @@ class BlockSetup {
             const MapVertex &p = setup_.vertices[tri.v[0]], &q = setup_.vertices[tri.v[1]],
                             &r = setup_.vertices[tri.v[2]];
             const auto id = static_cast<std::uint32_t>(t);
+            if ((p.clip & q.clip & r.clip & clip_near) != 0) continue;  // nothing of it is left
             if ((p.clip | q.clip | r.clip) == 0) {
                 emit(id, {p.x, p.y}, {q.x, q.y}, {r.x, r.y});
             } else {
@@ -298,9 +299,9 @@ void lay_out_blocks(const Mesh& mesh, bool clipping, const Exec& exec, TriangleS
         if (!clipping) return;
         for (std::size_t t = begin; t < end; ++t) {
             const Triangle& tri = mesh.triangles[t];
-            const int clip =
-                s.vertices[tri.v[0]].clip | s.vertices[tri.v[1]].clip | s.vertices[tri.v[2]].clip;
-            if (clip != 0) room[b] += 5;
+            const MapVertex &p = s.vertices[tri.v[0]], &q = s.vertices[tri.v[1]], &r = s.vertices[tri.v[2]];
+            const bool all_before = (p.clip & q.clip & r.clip & clip_near) != 0;
+            if (!all_before && (p.clip | q.clip | r.clip) != 0) room[b] += 5;
         }
     });
     std::size_t next = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/emitter_surface.h"
 #include "core/num.h"
 #include "core/parallel.h"
 
@@ -55,12 +56,19 @@ void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, c
     });
 }
 
+/// What is nearer to the light's middle casts no shadow: what shines, above all, where that lies around it.
+double nearest_caster_m(const Light& light) {
+    if (light.kind != LightKind::surface || light.surface == nullptr) return light.near_m;
+    return std::max(light.near_m, std::min(1.000001 * light.surface->radius_m, 0.5 * light.range_m));
+}
+
 /// Of points and spots: to their own range.
 std::vector<LightView> lamp_views(const Light& light, const ShadowViewParams& params) {
     // What a kernel reaches beyond its receiver's texel, and one more.
     const int margin = params.filter_px / 2 + 1;
     if (shadow_view_count(light.kind) == 6) {
-        return cube_light_views(light.position, light.near_m, light.range_m, params.resolution, margin);
+        return cube_light_views(light.position, nearest_caster_m(light), light.range_m, params.resolution,
+                                margin);
     }
     // Wider than the cone by the margin. Nothing is wider than 170 degrees; beyond, the cone's rim takes the
     // map's border.

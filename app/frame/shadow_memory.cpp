@@ -76,6 +76,11 @@ std::int64_t top_bytes(const SceneLight& light) {
                      (std::int64_t{sizeof(TopNode)} << (2 * light.shadow.top_levels));
 }
 
+/// What every thread takes to put the casters of a light in order (raster/exact/caster_pool.h).
+std::int64_t caster_pool_bytes(const MeshSize& mesh) {
+    return hardware_threads() * (setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles));
+}
+
 }  // namespace
 
 std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
@@ -121,8 +126,8 @@ std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sk
 
 std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky,
                                const RenderSettings& render) {
-    // Points that are no disc's have casters of their own, set up meanwhile.
-    const std::int64_t own = soft_pass_bytes(mesh, false) + setup_bytes(mesh);
+    // Points that are no disc's have casters of their own, set up meanwhile by every thread.
+    const std::int64_t own = soft_pass_bytes(mesh, false) + caster_pool_bytes(mesh);
     std::int64_t most = is_occluded(sky) ? own : 0;
     for (const SceneLight& light : lights) {
         if (is_soft(light))
@@ -133,7 +138,7 @@ std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight>
 
 std::int64_t sun_hours_pass_bytes(const MeshSize& mesh, int steps) {
     if (steps == 0) return 0;
-    return sun_pass_bytes(mesh, steps) + setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles);
+    return sun_pass_bytes(mesh, steps) + caster_pool_bytes(mesh);
 }
 
 std::int64_t sun_hours_tiles_bytes(const MeshSize& mesh, int steps) {

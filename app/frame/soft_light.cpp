@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "app/frame/exact_tile.h"
 #include "app/frame/light_shadow.h"
@@ -9,7 +10,7 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "raster/depth_tile.h"
-#include "raster/exact/casters.h"
+#include "raster/exact/caster_pool.h"
 #include "raster/exact/soft_casters.h"
 #include "raster/light_samples.h"
 #include "raster/lighting.h"
@@ -87,20 +88,16 @@ class Pass {
     }
 
     /// The tiles of the pass; null when cancelled. Adds to the seconds that making it takes.
-    const TileScene* make(const Exec& exec, const std::atomic<bool>* cancel, CasterScratch& scratch,
+    const TileScene* make(const Exec& exec, const std::atomic<bool>* cancel, CasterPool& pool,
                           double& seconds) {
         const Stopwatch watch;
-        const bool done = light_.middle ? see_vertices(exec) : order_casters(exec, cancel, scratch);
+        const bool done = light_.middle ? see_vertices(exec) : order_casters(exec, cancel, pool);
         seconds += watch.seconds();
         return done ? &tiles_ : nullptr;
     }
 
     /// Memory for the next.
-    void give_back(CasterScratch& scratch) {
-        for (auto& casters : casters_)
-            scratch.give_back(std::move(casters));
-        casters_.clear();
-    }
+    void give_back(CasterPool& pool) { pool.give_back(std::exchange(casters_, {})); }
 
   private:
     /// Parallel light: what the middle's casters do not tell.
@@ -114,12 +111,11 @@ class Pass {
     }
 
     /// Else each point has casters of its own. False when cancelled.
-    bool order_casters(const Exec& exec, const std::atomic<bool>* cancel, CasterScratch& scratch) {
-        for (const Light& point : points_) {
-            casters_.push_back(build_casters(*tiles_.casters, point, exec, scratch, cancel));
-            if (casters_.back().empty()) return false;
-            add(point, exact_light(point, casters_.back(), *tiles_.mesh, tiles_.rays));
-        }
+    bool order_casters(const Exec& exec, const std::atomic<bool>* cancel, CasterPool& pool) {
+        casters_ = pool.build(*tiles_.casters, points_, exec, cancel);
+        if (casters_.empty()) return false;
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            add(points_[i], exact_light(points_[i], casters_[i], *tiles_.mesh, tiles_.rays));
         return true;
     }
 
@@ -210,7 +206,7 @@ int soft_passes(const TileScene& tiles) {
 bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomic<bool>* cancel,
                       std::span<LightShadowStats> stats,
                       const std::function<bool(const TileScene& pass)>& visit) {
-    CasterScratch scratch;
+    CasterPool pool;
     for (const SoftLight& soft : tiles.soft) {
         const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
         const int together = soft_points_together(size_of(*tiles.casters), soft.middle.has_value());
@@ -219,9 +215,9 @@ bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomi
         for (int stratum = 0; stratum < m; ++stratum) {
             for (int begin = 0; begin < points; begin += together) {
                 Pass pass(tiles, soft, stratum, begin, std::min(together, points - begin));
-                const TileScene* made = pass.make(exec, cancel, scratch, seconds);
+                const TileScene* made = pass.make(exec, cancel, pool, seconds);
                 if (made == nullptr || !visit(*made)) return false;
-                pass.give_back(scratch);
+                pass.give_back(pool);
             }
         }
     }

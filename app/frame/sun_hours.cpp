@@ -14,7 +14,7 @@
 #include "core/error.h"
 #include "core/sky/clear_sky.h"
 #include "core/stopwatch.h"
-#include "raster/exact/casters.h"
+#include "raster/exact/caster_pool.h"
 
 namespace obscura {
 namespace {
@@ -37,26 +37,22 @@ class SunPass {
     }
 
     /// Puts what casts shadows in order, for each sun. False when cancelled.
-    bool make(const Exec& exec, const std::atomic<bool>* cancel, CasterScratch& scratch) {
-        casters_.reserve(steps_.size());
+    bool make(const Exec& exec, const std::atomic<bool>* cancel, CasterPool& pool) {
+        std::vector<Light> suns;
         for (const SunStep& step : steps_) {
-            Light light = sun_;
+            Light& light = suns.emplace_back(sun_);
             light.direction = -compass_direction(step.azimuth_deg, step.elevation_deg);
             light.below_horizon = false;
-            casters_.push_back(build_casters(*tiles_.casters, light, exec, scratch, cancel));
-            if (casters_.back().empty()) return false;
-            tiles_.lights.emplace_back().exact =
-                exact_light(light, casters_.back(), *tiles_.mesh, tiles_.rays);
         }
+        casters_ = pool.build(*tiles_.casters, suns, exec, cancel);
+        if (casters_.size() != suns.size()) return false;
+        for (std::size_t i = 0; i < suns.size(); ++i)
+            tiles_.lights.emplace_back().exact = exact_light(suns[i], casters_[i], *tiles_.mesh, tiles_.rays);
         return true;
     }
 
     /// Memory for the next.
-    void give_back(CasterScratch& scratch) {
-        for (auto& casters : casters_)
-            scratch.give_back(std::move(casters));
-        casters_.clear();
-    }
+    void give_back(CasterPool& pool) { pool.give_back(std::exchange(casters_, {})); }
 
     const TileScene& tiles() const { return tiles_; }
     std::span<const SunStep> steps() const { return steps_; }
@@ -152,12 +148,12 @@ void add_sun_hours(const TileScene& tiles, const Light& sun, const FrameOptions&
     stats.passes = sun_passes(mesh, stats.suns);
 
     HoursSums sums{Image<double>(frame.width, frame.height), Image<std::uint8_t>(frame.width, frame.height)};
-    CasterScratch scratch;
+    CasterPool caster_pool;
     for (int p = 0; p < stats.passes && frame.complete; ++p) {
         const std::size_t begin = static_cast<std::size_t>(p) * together;
         SunPass pass(tiles, sun, std::span(steps).subspan(begin, std::min(together, steps.size() - begin)));
         const Stopwatch ordering;
-        frame.complete = pass.make(exec, options.cancel, scratch);
+        frame.complete = pass.make(exec, options.cancel, caster_pool);
         stats.order_s += ordering.seconds();
         if (!frame.complete) break;
         FrameOptions of_pass = options;
@@ -172,7 +168,7 @@ void add_sun_hours(const TileScene& tiles, const Light& sun, const FrameOptions&
         });
         for (const ExactCounts& n : counts)
             stats.exact += n;
-        pass.give_back(scratch);
+        pass.give_back(caster_pool);
     }
     frame.sun_hours = mean_hours(sums);
     stats.total_s = watch.seconds();

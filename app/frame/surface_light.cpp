@@ -9,7 +9,7 @@
 #include "core/parallel.h"
 #include "core/vec_arrays.h"
 #include "raster/depth_tile.h"
-#include "raster/exact/casters.h"
+#include "raster/exact/caster_pool.h"
 #include "raster/exact/exact_shadow.h"
 #include "raster/light_samples.h"
 #include "raster/lighting.h"
@@ -206,31 +206,42 @@ class Exchange {
     /// when cancelled.
     bool ask(const PatchPoints& points, const std::vector<Asked>& lights, const SurfaceLight* sent,
              std::vector<Vec3f>& arriving) const {
-        CasterScratch scratch;
-        for (const Asked& asked : lights) {
-            auto casters = build_casters(scene_.mesh, asked.light, exec_, scratch, cancel_);
+        CasterPool pool;
+        // As many at a time as there are threads to put their casters in order.
+        const std::size_t together = static_cast<std::size_t>(hardware_threads());
+        for (std::size_t begin = 0; begin < lights.size(); begin += together) {
+            const std::size_t end = std::min(begin + together, lights.size());
+            std::vector<Light> some;
+            for (std::size_t i = begin; i < end; ++i)
+                some.push_back(lights[i].light);
+            auto casters = pool.build(scene_.mesh, some, exec_, cancel_);
             if (casters.empty()) return false;
-            const ExactLight exact = exact_light(asked.light, casters, scene_.mesh, rays_);
-            parallel_blocks(points.count(), points_together, exec_, [&](std::size_t begin, std::size_t end) {
-                const ExactPoints part = points.part(begin, end);
-                ExactWork work(static_cast<std::size_t>(part.count));
-                ExactCounts counts;
-                std::vector<std::uint32_t> lit(part.covered, part.covered + part.count / 16);
-                if (sent == nullptr) {
-                    if (asked.shadows) work.shadows(part, exact, exec_.isa, lit.data(), counts);
-                    add_light(points, asked.light, lit, begin, end, arriving);
-                } else {
-                    std::vector<std::uint32_t> triangle(static_cast<std::size_t>(part.count), no_triangle);
-                    std::vector<float> distance(triangle.size());
-                    work.nearest(part, exact, exec_.isa, lit.data(), {triangle.data(), distance.data()},
-                                 counts);
-                    add_sent(points, asked, vec(exact.to_light), *sent, {triangle.data(), distance.data()},
-                             begin, end, arriving);
-                }
-            });
-            scratch.give_back(std::move(casters));
+            for (std::size_t i = begin; i < end; ++i)
+                ask_one(points, lights[i], casters[i - begin], sent, arriving);
+            pool.give_back(std::move(casters));
         }
         return true;
+    }
+
+    void ask_one(const PatchPoints& points, const Asked& asked, std::span<const Casters> casters,
+                 const SurfaceLight* sent, std::vector<Vec3f>& arriving) const {
+        const ExactLight exact = exact_light(asked.light, casters, scene_.mesh, rays_);
+        parallel_blocks(points.count(), points_together, exec_, [&](std::size_t begin, std::size_t end) {
+            const ExactPoints part = points.part(begin, end);
+            ExactWork work(static_cast<std::size_t>(part.count));
+            ExactCounts counts;
+            std::vector<std::uint32_t> lit(part.covered, part.covered + part.count / 16);
+            if (sent == nullptr) {
+                if (asked.shadows) work.shadows(part, exact, exec_.isa, lit.data(), counts);
+                add_light(points, asked.light, lit, begin, end, arriving);
+            } else {
+                std::vector<std::uint32_t> triangle(static_cast<std::size_t>(part.count), no_triangle);
+                std::vector<float> distance(triangle.size());
+                work.nearest(part, exact, exec_.isa, lit.data(), {triangle.data(), distance.data()}, counts);
+                add_sent(points, asked, vec(exact.to_light), *sent, {triangle.data(), distance.data()}, begin,
+                         end, arriving);
+            }
+        });
     }
 
     void add_light(const PatchPoints& points, const Light& light, const std::vector<std::uint32_t>& lit,

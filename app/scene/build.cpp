@@ -10,6 +10,7 @@
 
 #include "app/scene/aperture_file.h"
 #include "app/scene/keyframes.h"
+#include "app/scene/light_kinds.h"
 #include "app/scene/mesh_transform.h"
 #include "app/scene/obj_file.h"
 #include "app/scene/schema.h"
@@ -282,6 +283,33 @@ std::shared_ptr<const ImageSky> sky_picture(Builder& b) {
     });
 }
 
+/// What lights of surfaces shine from.
+void add_emitters(Builder& b) {
+    for (const SceneTable* light : subtables(b.document.root, "light")) {
+        if (light_kind_of(*light).kind != LightKind::surface) continue;
+        const std::string& name = text(*light, "material");
+        std::vector<std::string> names;
+        for (const Material& m : b.scene.materials)
+            names.push_back(m.name);
+        const auto at = std::find(names.begin(), names.end(), name);
+        if (at == names.end()) {
+            fail_at(place_of(*light, "material"), b.document.sources,
+                    fmt::format("the scene has no material '{}'{}", name, hint(name, names)));
+        }
+        const auto index = static_cast<std::size_t>(at - names.begin());
+        auto surface = std::make_shared<const EmitterSurface>(
+            emitter_surface(b.scene.mesh, static_cast<std::uint32_t>(index)));
+        const Vec3f e = b.scene.materials[index].emission;
+        const std::string& id = text(*light, "id");
+        if (surface->pieces.empty()) {
+            add_note(b, fmt::format("light '{}' is dark: no surface has the material '{}'", id, name));
+        } else if (std::max({e.x, e.y, e.z}) <= 0) {
+            add_note(b, fmt::format("light '{}' is dark: material '{}' has no emission_w_m2_sr", id, name));
+        }
+        b.scene.emitters[name] = std::move(surface);
+    }
+}
+
 }  // namespace
 
 Scene build_scene(const SceneDocument& document, const FileAccess& access) {
@@ -295,6 +323,7 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     add_materials(b);
     for (const SceneTable* mesh : subtables(document.root, "mesh"))
         add_mesh(b, *mesh);
+    add_emitters(b);
     b.scene.optics.mask = lens_mask(b);
     set_frame(b.scene, document, scene_frames(document).first);
     return std::move(b.scene);

@@ -48,6 +48,18 @@ void set_sky(Scene& scene, const SceneDocument& document, double frame) {
     }
 }
 
+/// What a light of surfaces shines from, and how brightly.
+void set_surface(const Scene& scene, Light& light) {
+    const auto emitter = scene.emitters.find(light.material);
+    if (emitter == scene.emitters.end()) return;
+    const EmitterSurface& surface = *emitter->second;
+    light.surface = emitter->second;
+    light.position = surface.middle;
+    const auto material = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                       [&](const Material& m) { return m.name == light.material; });
+    light.color = surface.pieces.empty() ? Vec3f{0, 0, 0} : material->emission;
+}
+
 }  // namespace
 
 void set_frame(Scene& scene, const SceneDocument& document, double frame) {
@@ -58,6 +70,9 @@ void set_frame(Scene& scene, const SceneDocument& document, double frame) {
     scene.lights.clear();
     for (const SceneTable* light : subtables(document.root, "light")) {
         scene.lights.push_back(light_of(light_at(document, *light, frame)));
+    }
+    for (SceneLight& light : scene.lights) {
+        if (light.light.kind == LightKind::surface) set_surface(scene, light.light);
     }
     set_sky(scene, document, frame);
 }

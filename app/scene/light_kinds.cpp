@@ -279,6 +279,25 @@ void check_area(const SceneTable& light, const Sources& sources) {
     }
 }
 
+// --- surface
+
+KeyRows<Light> surface_rows() {
+    return {
+        key_row(&Light::material,
+                text_key("material",
+                         "What has it sheds the light of its emission_w_m2_sr, from the side that its "
+                         "triangles face. Materials of mesh files are MESH/NAME.")
+                    .need()),
+        key_row(&Light::near_m, number_key("near_m",
+                                           "Nothing nearer to a place that shines than this casts a "
+                                           "shadow.")
+                                    .in(positive)
+                                    .or_else(0.001)),
+        key_row(&Light::range_m,
+                number_key("range_m", "The light ends smoothly at this distance.").in(positive)),
+    };
+}
+
 }  // namespace
 
 const std::vector<LightKindRow>& light_kinds() {
@@ -294,6 +313,11 @@ const std::vector<LightKindRow>& light_kinds() {
          "give "
          "a mesh there the same emission.",
          area_rows(), finish_area, check_area},
+        {LightKind::surface, "surface",
+         "Light from all surfaces of a material that shines: lamps of any shape. With shadows that see its "
+         "middle alone (one sample, maps) it is a point there that gives off as much, and nothing nearer to "
+         "that than what shines casts a shadow.",
+         surface_rows(), nullptr, check_point},
     };
     return all;
 }

@@ -52,7 +52,8 @@ bool has_keyframes(const SceneTable& root, const SceneTable& light) {
 /// Whether the light has penumbrae, which maps of its middle do not show.
 bool is_sized(const SceneTable& light) {
     const auto above_zero = [&](const char* key) { return light.has(key) && number(light, key) > 0; };
-    return above_zero("angular_diameter_deg") || above_zero("radius_m") || text(light, "type") == "area";
+    return above_zero("angular_diameter_deg") || above_zero("radius_m") || text(light, "type") == "area" ||
+           text(light, "type") == "surface";
 }
 
 /// Whether shadows of that size are wanted.
@@ -120,6 +121,12 @@ void complete_stack(SceneTable& settings, const SceneTable& light, const SceneEn
     if (!is_sized(light)) {
         fail_at(settings.find("method")->value.place, sources,
                 fmt::format("method = \"stack\" needs a light with a size, which light '{}' has not",
+                            text(light, "id")));
+    }
+    if (text(light, "type") == "surface") {
+        fail_at(settings.find("method")->value.place, sources,
+                fmt::format("method = \"stack\" needs a light of one shape; light '{}' is of surfaces, which "
+                            "method = \"exact\" takes point by point",
                             text(light, "id")));
     }
     set_default(settings, "samples", value_of(std::int64_t{stack_samples}));

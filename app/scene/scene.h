@@ -3,11 +3,14 @@
 // rendered.
 
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "app/scene/optics_settings.h"
 #include "app/scene/shadow_settings.h"
+#include "core/emitter_surface.h"
 #include "core/mesh.h"
 #include "core/scene.h"
 #include "filters/tonemap.h"
@@ -57,6 +60,8 @@ struct Scene {
     std::vector<Texture> textures;
     Camera camera;
     std::vector<SceneLight> lights;
+    /// What lights of surfaces shine from, by the name of the material.
+    std::map<std::string, std::shared_ptr<const EmitterSurface>> emitters;
     Sky sky;
     RenderSettings render;
     OpticsSettings optics;

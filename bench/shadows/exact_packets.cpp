@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "app/frame/shadows.h"
@@ -42,16 +44,17 @@ struct PacketState {
 
     PacketState(const Scene& scene, const FrameSamples& samples_, const Exec& exec_)
         : samples(samples_), exec(exec_), mesh(casting(scene.mesh)), device(exec_.threads) {
-        // Casters only tell which samples ask.
-        std::vector<std::vector<Casters>> casters;
+        // Casters only tell which samples ask, light by light: there may be hundreds.
         CasterScratch scratch;
         for (const SceneLight& light : scene.lights) {
             if (!casts_shadows(light)) continue;
-            casters.push_back(build_casters(scene.mesh, light.light, exec, scratch));
-            lights.push_back(exact_light(light.light, casters.back(), scene.mesh, samples.rays));
+            std::vector<Casters> casters = build_casters(scene.mesh, light.light, exec, scratch);
+            lights.push_back(exact_light(light.light, casters, scene.mesh, samples.rays));
+            asking.push_back(asked_samples(samples, std::span(&lights.back(), 1), exec)[0]);
+            for (Casters& view : casters)
+                scratch.spare.push_back(std::move(view));
             near_m.push_back(static_cast<float>(light.light.near_m));
         }
-        asking = asked_samples(samples, lights, exec);
         lit = asking;
         eye = to_float(scene.camera.eye);
         float largest = 0;
@@ -150,6 +153,12 @@ ExactFindings findings_of(const PacketState& state) {
 }
 
 }  // namespace
+
+TracedSamples trace_samples(const Scene& scene, const FrameSamples& samples, const Exec& exec) {
+    PacketState state(scene, samples, exec);
+    parallel_for(samples.tiles, exec, [&](std::size_t t) { trace_tile(state, t); });
+    return {std::move(state.asking), std::move(state.lit)};
+}
 
 Session open_exact_rays(const Scene& scene, const FrameSamples& samples, const Exec& exec) {
     const auto state = std::make_shared<PacketState>(scene, samples, exec);

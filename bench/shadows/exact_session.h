@@ -34,4 +34,11 @@ Session open_exact(const Scene& scene, const FrameSamples& samples, const Exec& 
 /// units in the last place of the largest coordinate. Only with Embree.
 Session open_exact_rays(const Scene& scene, const FrameSamples& samples, const Exec& exec);
 
+/// Of each light with shadows, the samples that ask and those that light reaches, as ExactPoints' masks.
+struct TracedSamples {
+    std::vector<std::vector<std::uint32_t>> asked, lit;
+};
+/// What those rays find. Only with Embree.
+TracedSamples trace_samples(const Scene& scene, const FrameSamples& samples, const Exec& exec);
+
 }  // namespace obscura

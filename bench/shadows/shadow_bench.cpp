@@ -8,6 +8,7 @@
 #include "bench/shadows/code_bench.h"
 #include "bench/shadows/exact_bench.h"
 #include "bench/shadows/report.h"
+#include "bench/shadows/soft_bench.h"
 #include "bench/shadows/stack_bench.h"
 #include "bench/shadows/sweep_scenes.h"
 #ifdef OBSCURA_HAS_EMBREE
@@ -82,6 +83,10 @@ int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& pe
     if (options.part == "exact") {
         make_output_folder(options);
         return bench_exact(options);
+    }
+    if (options.part == "soft") {
+        make_output_folder(options);
+        return bench_soft(options);
     }
     if (options.part == "stack") {
         make_output_folder(options);

@@ -35,9 +35,9 @@ std::string left_out(const ShadowBenchPlan& plan, const std::string& scene, int 
 
 /// The whole bench: measures, writes shadows*.csv, shadows.md, with gnuplot SVG charts, and a picture per
 /// scene into options.out. Returns an exit code. Throws OutputError.
-/// options.part: "times", "accuracy", "wrong-pixels" or "sizes" alone, or "exact", "stack" or "trees", which
-/// no other run has (exact_bench.h, stack_bench.h, code_bench.h). `peers`: whose dual-depth maps are timed
-/// beside builds.
+/// options.part: "times", "accuracy", "wrong-pixels" or "sizes" alone, or "exact", "soft", "stack" or
+/// "trees", which no other run has (exact_bench.h, stack_bench.h, code_bench.h). `peers`: whose dual-depth
+/// maps are timed beside builds.
 int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& peers);
 
 // Its parts, scene by scene.

@@ -228,11 +228,6 @@ std::int64_t Casters::bytes() const {
     return static_cast<std::int64_t>(bytes);
 }
 
-void CasterScratch::give_back(std::vector<Casters> casters) {
-    for (Casters& c : casters)
-        spare.push_back(std::move(c));
-}
-
 std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const Exec& exec,
                                    CasterScratch& scratch, const std::atomic<bool>* cancel) {
     // Lamps' views a 2,048th wider than what they are for: which of six a point belongs to is found in

@@ -29,14 +29,12 @@ struct Casters {
     std::int64_t bytes() const;
 };
 
-/// What making casters needs meanwhile, and casters that are no longer asked: for lights in great number,
-/// whose pages had otherwise to be cleared for each.
+/// What making casters needs meanwhile, and casters that are no longer asked, whose memory is taken first:
+/// new pages have to be cleared (caster_pool.h).
 struct CasterScratch {
     TriangleSetup setup;
     Buffer<std::uint64_t> items, other_items;  ///< keys of records, and their numbers
-    std::vector<Casters> spare;                ///< their memory is taken first
-
-    void give_back(std::vector<Casters> casters);
+    std::vector<Casters> spare;
 };
 
 /// Casters of every view that the light needs: one, or six of a point light; none when `cancel` was set

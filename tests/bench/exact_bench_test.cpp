@@ -147,6 +147,30 @@ std::vector<std::map<std::string, std::string>> read_csv(const std::filesystem::
     return rows;
 }
 
+TEST(SoftBench, QuickRunAgreesWithRays) {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "workers are forked, which the thread sanitizer does not follow";
+#endif
+    const std::filesystem::path out =
+        std::filesystem::temp_directory_path() / ("obscura_soft_bench_test_" + std::to_string(getpid()));
+    const std::string command = std::string("'") + OBSCURA_BINARY +
+                                "' bench shadows --part soft --quick --runs 1 -o '" + out.string() +
+                                "' > /dev/null";
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::set<std::string> lights;
+    for (auto& row : read_csv(out / "shadows_soft.csv")) {
+        lights.insert(row["light"]);
+        EXPECT_GT(std::stod(row["lookup_median_ms"]), 0);
+#ifdef OBSCURA_HAS_EMBREE
+        EXPECT_GT(std::stoll(row["pairs"]), 4 * std::stoll(row["covered"]) / 2);
+        // Edges pass by a few of 8192 pixels.
+        EXPECT_LE(std::stoll(row["apart"]), std::stoll(row["pairs"]) / 1000) << row["light"];
+#endif
+    }
+    EXPECT_EQ(lights.size(), 3u);
+    std::filesystem::remove_all(out);
+}
+
 TEST(ExactBench, QuickRunWritesTables) {
 #if defined(__SANITIZE_THREAD__)
     GTEST_SKIP() << "workers are forked, which the thread sanitizer does not follow";

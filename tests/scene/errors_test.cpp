@@ -62,7 +62,7 @@ const std::vector<BadScene>& bad_scenes() {
         {"MissingKey", camera("eye_m = [0, 1, 5]"), "s.toml:2:1: [camera] needs 'look_at_m'"},
         {"MissingType", light(""),
          "s.toml:3:1: [[light]] needs 'type': one of \"directional\", \"sun\", \"point\", \"spot\", "
-         "\"area\""},
+         "\"area\", \"surface\""},
         {"WrongType", camera("eye_m = [0, 1]"), "s.toml:3:9: 'eye_m' must be three numbers, not a list of 2"},
         {"TextForTable", "format = 1\ncamera = \"front\"",
          "s.toml:2:10: 'camera' must be a table [camera], not the string \"front\""},
@@ -97,7 +97,7 @@ const std::vector<BadScene>& bad_scenes() {
         {"KeyOfOtherKind", camera("eye_m = [0, 1, 5]\nlook_at_m = [0, 0, 0]\nheight_m = 3"),
          "s.toml:5:1: 'height_m' does not apply to [camera] with projection = \"perspective\""},
         {"UnknownChoice", light("type = \"dirctional\""),
-         "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", \"area\", "
+         "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", \"area\", \"surface\", "
          "not \"dirctional\"; did you mean "
          "'directional'?"},
         {"UnlistedInteger", scene("[render]\nsamples = 2"),

@@ -102,6 +102,8 @@ SceneLook look_at_scene(const SceneDocument& document, const FileAccess& access)
         look.cameras.push_back(s.camera);
         look.lenses.push_back(s.optics);
         look.lights.push_back(s.lights);
+        for (SceneLight& light : look.lights.back())
+            light.light.surface = nullptr;  // as does this
     }
     return look;
 }

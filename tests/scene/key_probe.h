@@ -28,7 +28,7 @@ inline std::vector<std::string> candidates(const KeySpec& key) {
         {"mask", {"\"other.pgm\""}},
         {"texture", {"\"other.png\""}},
         {"cache", {"\"maps\""}},
-        {"material", {"\"other\""}},
+        {"material", {"\"other\"", "\"main\""}},
         {"materials", {"{default = \"other\"}"}},
         {"range", {"\"2-6\""}},
         {"id", {"\"renamed\"", "\"second\""}},
