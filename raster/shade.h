@@ -97,6 +97,10 @@ struct alignas(64) ShadeSent {
 };
 
 constexpr float dielectric_f0 = 0.04f;
+
+/// Weights in what is mirrored of the sky, beside a cosine to the eighth: of any part that the surface faces;
+/// and of one that it does not.
+constexpr float mirror_floor = 0x1p-12f, unseen_weight = 0x1p-34f;
 constexpr float inv_pi = 0.318309886183790672f;
 
 /// shade_begin: fills `shade`; radiance = emission + ambient light, or the sky where nothing is covered.

@@ -225,11 +225,12 @@ void add_light(const SurfaceBlock& s, const ShadeLight& light, const float* visi
     }
 }
 
-/// Of a part of the sky that the surface faces, or lets through, in what is mirrored along r.
+/// Of a part of the sky in what is mirrored along r.
 OBSCURA_INLINE F32 mirror_weight(const SurfaceBlock& s, const Vec3x16& r, const Vec3x16& l, int at) {
     const Mask asks =
         less(splat(0.0f), dot(load3(s.gx + at, s.gy + at, s.gz + at), l)) | mask_of(s.thin[at / 16]);
-    return select(asks, eighth_power(max(dot(r, l), splat(0.0f))), splat(0.0f));
+    return select(asks, eighth_power(max(dot(r, l), splat(0.0f))) + splat(mirror_floor),
+                  splat(unseen_weight));
 }
 
 }  // namespace
@@ -277,7 +278,7 @@ void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials
         const Vec3x16 f0 = load3(shade.f0_r + at, shade.f0_g + at, shade.f0_b + at);
         const F32 nv = load(shade.nv + at);
         const Vec3x16 r = n * (splat(2.0f) * nv) - v;
-        F32 weights = splat(1e-6f);
+        F32 weights = splat(0.0f);
         for (std::int32_t i = 0; i < count; ++i)
             weights = weights + mirror_weight(surface, r, splat3(parts[i].to_light), at);
         store3(shade.mirror_x + at, shade.mirror_y + at, shade.mirror_z + at, r);

@@ -124,11 +124,13 @@ void begin_sample(const SurfaceBlock& s, const ShadeMaterial* materials, const S
     out.b[at] = radiance.z;
 }
 
-/// Of a part of the sky that the surface faces, or lets through, in what is mirrored along r.
+/// Of a part of the sky in what is mirrored along r. Those that the surface faces, or lets through, have all
+/// of it, some however far from r. Others, which it sees nothing of, only where there is no such part: they
+/// count as hidden.
 float mirror_weight(const SurfaceBlock& s, Vec3f r, Vec3f l, int at) {
     const bool thin = (s.thin[at / 16] >> (at & 15) & 1u) != 0;
     const bool asks = 0.0f < dot(Vec3f{s.gx[at], s.gy[at], s.gz[at]}, l) || thin;
-    return asks ? eighth_power(lane_max(dot(r, l), 0.0f)) : 0.0f;
+    return asks ? eighth_power(lane_max(dot(r, l), 0.0f)) + mirror_floor : unseen_weight;
 }
 
 }  // namespace
@@ -237,7 +239,7 @@ void shade_sky_begin(const SurfaceBlock& surface, const ShadeMaterial* materials
         const Vec3f n{surface.nx[at], surface.ny[at], surface.nz[at]},
             v{shade.vx[at], shade.vy[at], shade.vz[at]};
         const Vec3f r = n * (2.0f * shade.nv[at]) - v;
-        float weights = 1e-6f;
+        float weights = 0.0f;
         for (std::int32_t i = 0; i < count; ++i)
             weights = weights + mirror_weight(surface, r, vec(parts[i].to_light), at);
         const ShadeMaterial& m = materials[static_cast<std::size_t>(surface.material[at])];

@@ -214,8 +214,19 @@ TEST(OccludedSky, OpenGroundGetsAllOfIt) {
 }
 
 TEST(OccludedSky, AClosedRoomIsDark) {
-    for (const SkyKind kind : {SkyKind::gradient, SkyKind::clear, SkyKind::overcast}) {
-        Scene scene = under_the_sky(64, kind);
+    struct Case {
+        SkyKind kind;
+        int directions, per_pixel;
+    };
+    // With sixteen directions and samples there is one for each, which most surfaces do not face.
+    for (const Case& c : {Case{SkyKind::gradient, 64, 4},
+                          {SkyKind::clear, 64, 1},
+                          {SkyKind::overcast, 256, 4},
+                          {SkyKind::gradient, 16, 1},
+                          {SkyKind::gradient, 16, 4},
+                          {SkyKind::clear, 16, 16}}) {
+        Scene scene = under_the_sky(c.directions, c.kind);
+        scene.render.samples = c.per_pixel;
         scene.materials[0].roughness = 0.4f;
         add(scene, box({8, 6, 14}), 0, {0, 1, 0});
         add(scene, box({1, 1, 1}), 0, {0, -1.5f, 0});

@@ -97,7 +97,8 @@ const std::vector<BadScene>& bad_scenes() {
         {"KeyOfOtherKind", camera("eye_m = [0, 1, 5]\nlook_at_m = [0, 0, 0]\nheight_m = 3"),
          "s.toml:5:1: 'height_m' does not apply to [camera] with projection = \"perspective\""},
         {"UnknownChoice", light("type = \"dirctional\""),
-         "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", \"area\", \"surface\", "
+         "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", \"area\", "
+         "\"surface\", "
          "not \"dirctional\"; did you mean "
          "'directional'?"},
         {"UnlistedInteger", scene("[render]\nsamples = 2"),
