@@ -79,7 +79,7 @@ F32 naive_mean(const TreeCode& tree, bool clamp, const Kernel16& k, const Mask& 
         const I32 x = k.x0 + splat(i), y = k.y0 + splat(j);
         const Mask inside = between(x, 0, last) & between(y, 0, last);
         const Mask asked = clamp ? active : active & inside;
-        Descents16 d = descents_from(Code::root(tree), asked);
+        Descents16<Code> d = descents_from<Code>(Code::root(tree), asked);
         descend_to<Code>(tree, base, tree.levels, k.level, shift_left(clamped(x, 0, last), k.level),
                          shift_left(clamped(y, 0, last), k.level), d);
         const Mask lit = less_equal(depth, values(Code{}, tree, base, d));
@@ -89,12 +89,6 @@ F32 naive_mean(const TreeCode& tree, bool clamp, const Kernel16& k, const Mask& 
 
 // --- shared ------------------------------------------------------------------------------------------------
 
-OBSCURA_INLINE Mask select(const Mask& m, const Mask& a, const Mask& b) {
-    return (m & a) | (~m & b);
-}
-OBSCURA_INLINE Descents16 select(const Mask& m, const Descents16& a, const Descents16& b) {
-    return {select(m, a.node, b.node), select(m, a.value, b.value), select(m, a.inner, b.inner)};
-}
 OBSCURA_INLINE Mask odd(const I32& a) {
     return any_bit(a, splat(std::int32_t{1}));
 }
@@ -130,7 +124,7 @@ OBSCURA_INLINE bool decided(const Kernel16& k, const F32& least_stored, const F3
 /// just fit. False when every lane's descents ended before.
 template <class Code>
 OBSCURA_INLINE bool descend_corners(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k,
-                                    int side, int height, int stop, Descents16 (&corner)[2][2]) {
+                                    int side, int height, int stop, Descents16<Code> (&corner)[2][2]) {
     const I32 x[2] = {k.x0, k.x0 + splat(side - 1)}, y[2] = {k.y0, k.y0 + splat(side - 1)};
     // Above these heights the corners of every lane are in one column, in one row.
     const int split_x = common_height(united_bits(x[0] ^ x[1]));
@@ -172,18 +166,18 @@ OBSCURA_INLINE bool descend_corners(const TreeCode& tree, const std::uint8_t* ba
 /// Child c stands in parent c / 2, or in the next where the first child is the second of its parent.
 template <class Code, int n>
 OBSCURA_INLINE void split_squares(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k,
-                                  int height, int count, const Descents16 (&from)[n][n],
-                                  Descents16 (&to)[n][n]) {
+                                  int height, int count, const Descents16<Code> (&from)[n][n],
+                                  Descents16<Code> (&to)[n][n]) {
     const I32 x = shift_right(k.x0, height), y = shift_right(k.y0, height);
     const Mask odd_x = odd(x), odd_y = odd(y);
     for (int j = 0; j < count; ++j) {
-        Descents16 row[n];
+        Descents16<Code> row[n];
         for (int i = 0; i < (count + 2) / 2; ++i) {
             row[i] = j % 2 == 0 ? from[j / 2][i] : select(odd_y, from[j / 2 + 1][i], from[j / 2][i]);
         }
         const I32 bit_y = shift_left<2>((y + splat(j)) & splat(std::int32_t{1}));
         for (int i = 0; i < count; ++i) {
-            Descents16 d = i % 2 == 0 ? row[i / 2] : select(odd_x, row[i / 2 + 1], row[i / 2]);
+            Descents16<Code> d = i % 2 == 0 ? row[i / 2] : select(odd_x, row[i / 2 + 1], row[i / 2]);
             if (any(d.inner)) {
                 const I32 bit_x = shift_left<1>((x + splat(i)) & splat(std::int32_t{1}));
                 descend(Code{}, tree, base, k.level + height + 1, bit_x | bit_y, d);
@@ -196,7 +190,7 @@ OBSCURA_INLINE void split_squares(const TreeCode& tree, const std::uint8_t* base
 /// Taps of kernels whose four corner squares are all that is to be known.
 template <class Code, int fixed>
 OBSCURA_INLINE F32 mean_of_corners(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k, int fit,
-                                   const Descents16 (&corner)[2][2], const Mask& active) {
+                                   const Descents16<Code> (&corner)[2][2], const Mask& active) {
     F32 value[2][2];
     for (int j = 0; j < 2; ++j) {
         for (int i = 0; i < 2; ++i)
@@ -236,7 +230,7 @@ F32 shared_mean(const TreeCode& tree, bool clamp, Kernel16& k, const Mask& activ
     const I32 apart = ((k.x0 ^ splat(x0)) | ((k.x0 + to_end) ^ splat(x0))) |
                       ((k.y0 ^ splat(y0)) | ((k.y0 + to_end) ^ splat(y0)));
     const int height = k.level + common_height(united_bits(apart));
-    const TopNode place = extend_path<Code>(tree, x0 << k.level, y0 << k.level, height, path);
+    const TreePlace place = extend_path<Code>(tree, x0 << k.level, y0 << k.level, height, path);
     F32 visibility;
     if (place.node == no_tree_node || height == k.level) {
         const F32 stored = splat(Code::depth(tree, place));
@@ -246,13 +240,13 @@ F32 shared_mean(const TreeCode& tree, bool clamp, Kernel16& k, const Mask& activ
 
     const std::uint8_t* base = biased_units<Code>(tree);
     const int fit = fitting_height(side);
-    Descents16 corner[2][2];
-    corner[0][0] = descents_from(place, active);
+    Descents16<Code> corner[2][2];
+    corner[0][0] = descents_from<Code>(place, active);
     if (!descend_corners<Code>(tree, base, k, side, height, k.level + fit, corner) || fit == 0) {
         return mean_of_corners<Code, fixed>(tree, base, k, fit, corner, active);
     }
     constexpr int most = fixed != 0 ? (fixed < 2 ? 2 : fixed) : max_side;
-    Descents16 square[2][most][most];
+    Descents16<Code> square[2][most][most];
     for (int j = 0; j < 2; ++j) {
         for (int i = 0; i < 2; ++i)
             square[0][j][i] = corner[j][i];

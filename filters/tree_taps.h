@@ -27,7 +27,7 @@ struct TreeTaps {
 template <class Code>
 float value_along(const TreeTaps& taps, std::int32_t x, std::int32_t y, TreePath& path) {
     const int level = taps.kernel.level;
-    const TopNode place = extend_path<Code>(taps.tree, x << level, y << level, level, path);
+    const TreePlace place = extend_path<Code>(taps.tree, x << level, y << level, level, path);
     return Code::depth(taps.tree, place);
 }
 
@@ -54,7 +54,7 @@ float shared_mean(const TreeTaps& taps, TreePath& path) {
     if (taps.all_inside()) {
         const std::int32_t x0 = taps.x(0), y0 = taps.y(0), x1 = taps.x(end), y1 = taps.y(end);
         const int height = k.level + common_height(static_cast<std::uint32_t>((x0 ^ x1) | (y0 ^ y1)));
-        const TopNode place = extend_path<Code>(taps.tree, x0 << k.level, y0 << k.level, height, path);
+        const TreePlace place = extend_path<Code>(taps.tree, x0 << k.level, y0 << k.level, height, path);
         if (place.node == no_tree_node || height == k.level) {
             // One value for all taps: their extreme depths, which are at corners, may decide.
             const float value = Code::depth(taps.tree, place);

@@ -22,6 +22,15 @@ struct MergeParams {
     int max_height = max_tree_levels;
 };
 
+/// dag: in what pieces.
+struct DagParams {
+    int treelet_levels = 4;  ///< 1 to 5
+    int chunk_log2 = 6;      ///< values in chunks of 2^this: 4 to 7
+    bool packed = true;      ///< in fewer bits than the paper's
+    /// Values below the root for which nodes have 24 bits; with more they have a word. Less for tests.
+    std::uint64_t most_counted = (1u << 24) - 1;
+};
+
 struct EncodeParams {
     TreeLayout layout = TreeLayout::words24;  ///< mh: what to try first
     int top_levels = 0;   ///< levels in the dense top grid, in [0, min(levels, max_top_levels)]; 0: no grid
@@ -31,7 +40,8 @@ struct EncodeParams {
     std::uint64_t max_units = std::uint64_t{1} << 31;  ///< of the result; less for tests
     ShadowCode code = ShadowCode::mh;
     MergeParams merge = {};
-    Exec exec = {};  ///< mmh; the result does not depend on it
+    DagParams dag = {};
+    Exec exec = {};  ///< mmh, dag; the result does not depend on it
 };
 
 constexpr int min_offset_bits = 4;  ///< with fewer, four siblings cannot each reach their children

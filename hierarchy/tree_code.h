@@ -2,7 +2,7 @@
 // The serialised tree as lookups read it. POD: kernels include this.
 //
 // A *code* is a way to write a tree of depths (hierarchy/codes): `mh` is described here, since others are
-// built on its nodes, `mmh` in hierarchy/mmh.
+// built on its nodes, `mmh` in hierarchy/mmh, `dag` in hierarchy/dag.
 //
 // Scandolo, Bauszat, Eisemann 2016, section 3.2, after S. Lefebvre, H. Hoppe, "Compressed Random-Access Trees
 // for Spatially Coherent Data", EGSR 2007: depth first, siblings side by side, each inner node with the kinds
@@ -29,13 +29,14 @@ constexpr int max_tree_levels = 20;
 constexpr int max_top_levels = 12;
 
 /// The codes. Their numbers stand in files; what they can do is in hierarchy/codes/codes.h.
-enum class ShadowCode : std::uint32_t { mh = 0, mmh = 1 };
+enum class ShadowCode : std::uint32_t { mh = 0, mmh = 1, dag = 2 };
 
 struct ShadowCodeName {
     ShadowCode code;
     const char* name;  ///< in scene files
 };
-inline constexpr ShadowCodeName shadow_code_names[] = {{ShadowCode::mh, "mh"}, {ShadowCode::mmh, "mmh"}};
+inline constexpr ShadowCodeName shadow_code_names[] = {
+    {ShadowCode::mh, "mh"}, {ShadowCode::mmh, "mmh"}, {ShadowCode::dag, "dag"}};
 constexpr int shadow_code_count = static_cast<int>(sizeof shadow_code_names / sizeof shadow_code_names[0]);
 
 /// Of a code that is one.
@@ -46,7 +47,7 @@ constexpr const char* name_of(ShadowCode code) {
     return shadow_code_names[i].name;
 }
 
-/// How a code writes its nodes. words16, words24, bytes16: mh; fractions, float_bits: mmh.
+/// How a code writes its nodes (words16, words24, bytes16: mh) or its values (fractions, float_bits: others).
 enum class TreeLayout : std::uint32_t {
     words16 = 0,
     words24 = 1,
@@ -78,25 +79,40 @@ constexpr const TreeLayoutRow& row_of(TreeLayout layout) {
     return tree_layouts[i];
 }
 
-/// Where a descent stands; one entry of the dense top grid, after its first levels.
-struct TopNode {
+/// Where a descent stands.
+struct TreePlace {
     /// Unit index of the inner node; no_tree_node when the descent ended above.
     std::uint32_t node = 0;
     /// What the code carries of the values on the way, this node's included. mh: the unit index of the last
-    /// one (of the value itself, not its node). mmh: their sum.
+    /// one (of the value itself, not its node). mmh: their sum. dag: the number of the last one.
     std::uint32_t value = 0;
+    /// dag alone: values that stand before those below the node, and where in a treelet the descent stands.
+    std::uint32_t count = 0, inside = 0;
 };
 constexpr std::uint32_t no_tree_node = 0xffffffffu;
 
-/// What a lookup needs of a tree. The root stands at unit 0 and is always a full node, even without children.
-/// children(node at height h) = node + offset * offset_scale[h]; texels have height 0, the root `levels`.
+/// Two of the numbers of a place: what the dense top grid is made of.
+struct TopNode {
+    std::uint32_t node = 0, value = 0;
+};
+
+/// Of one entry of the top grid, which is where descents stand after their first levels: node and value; of
+/// dag then count and inside.
+constexpr int top_nodes_of(ShadowCode code) {
+    return code == ShadowCode::dag ? 2 : 1;
+}
+
+/// What a lookup needs of a tree. mh and mmh: the root stands at unit 0 and is always a full node, even
+/// without children; children(node at height h) = node + offset * offset_scale[h]. Texels have height 0, the
+/// root `levels`.
 struct TreeCode {
     const std::uint8_t* units = nullptr;  ///< words: aligned to 4; bytes: readable 3 beyond the end
     ShadowCode code = ShadowCode::mh;
     TreeLayout layout = TreeLayout::words24;
     std::int32_t levels = 0;
     std::uint32_t offset_scale[max_tree_levels + 1] = {};
-    const TopNode* top = nullptr;  ///< 2^top_levels squared entries, row by row; null: none
+    const TopNode* top =
+        nullptr;  ///< 2^top_levels squared entries of top_nodes_of(code), row by row; null: none
     std::int32_t top_levels = 0;
 };
 

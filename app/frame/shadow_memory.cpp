@@ -72,7 +72,8 @@ std::int64_t built_nodes(const SceneLight& light, const RenderSettings& render) 
 std::int64_t top_bytes(const SceneLight& light) {
     return light.shadow.resolution == auto_resolution
                ? 0
-               : shadow_map_count(light) * (std::int64_t{sizeof(TopNode)} << (2 * light.shadow.top_levels));
+               : shadow_map_count(light) * top_nodes_of(light.shadow.code) *
+                     (std::int64_t{sizeof(TopNode)} << (2 * light.shadow.top_levels));
 }
 
 /// What every thread takes to put the casters of a light in order (raster/exact/caster_pool.h).

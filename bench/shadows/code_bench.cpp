@@ -52,7 +52,47 @@ MergeTrial merge(const MultiresTree& tree, const LightView& view, const MergePar
     return trial;
 }
 
+/// The paper's; other treelets; other chunks; packed, with chunks of 32, 64 and 128.
+std::vector<DagParams> dag_trials() {
+    constexpr int treelet_levels = 4, chunk_log2 = 5;
+    std::vector<DagParams> trials{{treelet_levels, chunk_log2, false}};
+    for (const int levels : {1, 2, 3, 5})
+        trials.push_back({levels, chunk_log2, false});
+    for (const int chunk : {4, 6, 7})
+        trials.push_back({treelet_levels, chunk, false});
+    for (const int chunk : {5, 6, 7})
+        trials.push_back({treelet_levels, chunk, true});
+    return trials;
+}
+
+DagTrial encode_dag_as(const MultiresTree& tree, const LightView& view, const DagParams& how,
+                       const Exec& exec) {
+    EncodeParams params;
+    params.code = ShadowCode::dag;
+    params.dag = how;
+    params.exec = exec;
+    DagTrial trial;
+    trial.params = how;
+    const Stopwatch watch;
+    const ShadowTree encoded = encode_tree(tree, view, params);
+    trial.encode_s = watch.seconds();
+    trial.bytes = encoded.bytes;
+    trial.stats = dag_stats(encoded);
+    return trial;
+}
+
+double mb(std::uint64_t bytes) {
+    return static_cast<double>(bytes) * 1e-6;
+}
+
 }  // namespace
+
+std::uint64_t CodeRow::mmh_bytes() const {
+    for (const MergeTrial& trial : trials) {
+        if (trial.params.count_survivors && trial.params.search_limit != 0) return trial.bytes;
+    }
+    return 0;
+}
 
 std::string trial_name(const MergeParams& params) {
     if (params.search_limit == 0) return "all";
@@ -90,6 +130,13 @@ std::vector<CodeRow> measure_codes(const ShadowRecipe& recipe, const std::vector
             const MergeTrial& trial = row.trials.back();
             options.say(fmt::format("{}, {}: mh {} bytes, mmh {} {:.3f} of it, {:.2f} s", row.scene, size,
                                     row.mh_bytes, trial_name(how), row.ratio(trial), trial.encode_s));
+        }
+        for (const DagParams& how : dag_trials()) {
+            row.dag_trials.push_back(encode_dag_as(tree, view, how, exec));
+            const DagTrial& trial = row.dag_trials.back();
+            options.say(fmt::format("{}, {}: {}graph of {} levels, chunks of {}: {} bytes, {:.2f} s",
+                                    row.scene, size, how.packed ? "packed " : "", how.treelet_levels,
+                                    1 << how.chunk_log2, trial.bytes, trial.encode_s));
         }
         rows.push_back(std::move(row));
     }
@@ -149,6 +196,51 @@ std::string code_markdown(const std::vector<CodeRow>& rows) {
     return text;
 }
 
+std::string dag_csv(const std::vector<CodeRow>& rows) {
+    std::string text =
+        "scene,size,mh_bytes,mmh_bytes,packed,treelet_levels,chunk,dag_bytes,inner_nodes,inner_bytes,"
+        "treelets,"
+        "treelet_bytes,values,chunk_bytes,factors,factor_bytes,dag_s\n";
+    for (const CodeRow& row : rows) {
+        for (const DagTrial& trial : row.dag_trials) {
+            const DagStats& s = trial.stats;
+            fmt::format_to(Out(text), "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.3f}\n", row.scene,
+                           row.size, row.mh_bytes, row.mmh_bytes(), trial.params.packed ? 1 : 0,
+                           trial.params.treelet_levels, 1 << trial.params.chunk_log2, trial.bytes,
+                           s.inner_nodes, s.inner_bytes, s.treelets, s.treelet_bytes, s.values, s.chunk_bytes,
+                           s.factors, s.factor_bytes, trial.encode_s);
+        }
+    }
+    return text;
+}
+
+std::string dag_markdown(const std::vector<CodeRow>& rows) {
+    std::string text =
+        "\n## Graphs\n\nAs the paper has them, with treelets of four levels and chunks of 32; then bytes "
+        "over theirs "
+        "with other treelets and chunks, and packed. MMH: 1000 survivors.\n\n"
+        "| scene | texels | DAG, MB | structure | values | /MH | /MMH | 1 level | 2 | 3 | 5 | chunks of 16 | "
+        "64 | "
+        "128 | packed, 32 | 64 | 128 | with factor, % | bits of one | s |\n"
+        "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
+    for (const CodeRow& row : rows) {
+        const DagTrial& first = row.dag_trials.front();
+        const auto over = [&](std::uint64_t bytes) {
+            return static_cast<double>(first.bytes) / static_cast<double>(bytes);
+        };
+        fmt::format_to(Out(text), "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.3f} |", row.scene,
+                       row.size, mb(first.bytes), mb(first.stats.structure_bytes()),
+                       mb(first.stats.value_bytes()), over(row.mh_bytes), over(row.mmh_bytes()));
+        for (std::size_t i = 1; i < row.dag_trials.size(); ++i)
+            fmt::format_to(Out(text), " {:.3f} |", 1 / over(row.dag_trials[i].bytes));
+        const auto factors = static_cast<double>(std::max<std::uint64_t>(first.stats.factors, 1));
+        fmt::format_to(Out(text), " {:.1f} | {:.1f} | {:.2f} |\n",
+                       100 * factors / static_cast<double>(first.stats.values),
+                       8 * static_cast<double>(first.stats.factor_bytes) / factors, first.encode_s);
+    }
+    return text;
+}
+
 int bench_codes(const BenchOptions& options) {
     const std::vector<int> sizes =
         options.quick ? std::vector<int>{256, 512} : std::vector<int>{4096, 16384, 65536};
@@ -162,8 +254,9 @@ int bench_codes(const BenchOptions& options) {
     }
     if (!found) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
     write_files(options, {{"shadows_codes.csv", code_csv(rows)},
+                          {"shadows_dag.csv", dag_csv(rows)},
                           {"shadows_codes.md", report_head("Shadow trees by code", "a small scene", options) +
-                                                   code_markdown(rows)}});
+                                                   code_markdown(rows) + dag_markdown(rows)}});
     options.say(fmt::format("written to {}", options.out.string()));
     return static_cast<int>(ExitCode::ok);
 }

@@ -8,6 +8,7 @@
 
 #include "bench/harness/options.h"
 #include "bench/shadows/scenes.h"
+#include "hierarchy/dag/dag.h"
 #include "hierarchy/encode_params.h"
 #include "hierarchy/mmh/merge.h"
 #include "hierarchy/multires.h"
@@ -30,6 +31,14 @@ struct MergeTrial {
 };
 std::string trial_name(const MergeParams& params);
 
+/// A way to cut a graph; the paper's tables 3 and 4.
+struct DagTrial {
+    DagParams params;
+    std::uint64_t bytes = 0;
+    DagStats stats;
+    double encode_s = 0;
+};
+
 struct CodeRow {
     std::string scene;
     std::size_t triangles = 0;
@@ -38,15 +47,20 @@ struct CodeRow {
     std::uint64_t mh_bytes = 0;
     double build_s = 0, mh_s = 0;
     std::vector<MergeTrial> trials;
+    std::vector<DagTrial> dag_trials;
     double ratio(const MergeTrial& trial) const {
         return static_cast<double>(trial.bytes) / static_cast<double>(mh_bytes);
     }
+    /// Of the merged tree that is encoded when nothing is said.
+    std::uint64_t mmh_bytes() const;
 };
 
 std::vector<CodeRow> measure_codes(const ShadowRecipe& recipe, const std::vector<int>& sizes, bool quick,
                                    const BenchOptions& options);
 
 std::string code_csv(const std::vector<CodeRow>& rows);
+std::string dag_csv(const std::vector<CodeRow>& rows);
+std::string dag_markdown(const std::vector<CodeRow>& rows);
 std::string code_markdown(const std::vector<CodeRow>& rows);
 
 /// The whole part: writes shadows_codes.csv and shadows_codes.md. Returns an exit code. Throws UsageError

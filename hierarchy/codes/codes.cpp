@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "hierarchy/build_memory.h"
 #include "hierarchy/codes/decode.h"
+#include "hierarchy/dag/dag.h"
 #include "hierarchy/mh/mh.h"
 #include "hierarchy/mmh/mmh.h"
 
@@ -11,6 +12,7 @@ namespace obscura {
 const ShadowCodeRow shadow_codes[shadow_code_count] = {
     {ShadowCode::mh, false, node_construction_bytes, encode_mh, mh_fault_of, mh_text},
     {ShadowCode::mmh, true, mmh_construction_bytes, encode_mmh, mmh_fault_of, mmh_text},
+    {ShadowCode::dag, true, dag_construction_bytes, encode_dag, dag_fault_of, dag_text},
 };
 
 const ShadowCodeRow* find_code(ShadowCode code) {

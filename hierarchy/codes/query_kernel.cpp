@@ -56,16 +56,21 @@ OBSCURA_INLINE std::uint16_t lit_bits(const Group16& g, const F32& stored) {
 /// height where the lanes stand.
 template <class Code>
 OBSCURA_INLINE int enter(const TreeCode& tree, const I32& x, const I32& y, std::uint32_t inside, int level,
-                         Descents16& d) {
+                         Descents16<Code>& d) {
     const int grid = tree.levels - tree.top_levels;
-    d = descents_from(Code::root(tree), mask_of(inside));
+    d = descents_from<Code>(Code::root(tree), mask_of(inside));
     if (tree.top == nullptr || level > grid) return tree.levels;
     const I32 entry = shift_right(y, grid) * splat(1 << tree.top_levels) + shift_right(x, grid);
     const auto* entries = reinterpret_cast<const std::uint8_t*>(tree.top);
-    const I32 node = gather_bytes<8>(entries, entry), bias = splat(biased(0));
+    const I32 at = Code::counts_values ? entry + entry : entry;
+    const I32 node = gather_bytes<8>(entries, at), bias = splat(biased(0));
     d.inner = d.inner & ~equal(node, splat(std::int32_t{-1}));
     d.node = select(d.inner, node ^ bias, d.node);
-    d.value = gather_bytes<8>(entries + 4, entry) ^ bias;
+    d.value = gather_bytes<8>(entries + 4, at) ^ bias;
+    if constexpr (Code::counts_values) {
+        d.count = gather_bytes<8>(entries + 8, at);
+        d.inside = gather_bytes<8>(entries + 12, at);
+    }
     return grid;
 }
 
@@ -74,7 +79,7 @@ template <class Code, int n>
 OBSCURA_INLINE void descend_groups(const TreeCode& tree, const Group16 (&group)[n], int level,
                                    F32 (&stored)[n]) {
     const std::uint8_t* base = biased_units<Code>(tree);
-    Descents16 d[n];
+    Descents16<Code> d[n];
     int height = 0;
     for (int k = 0; k < n; ++k)
         height = enter<Code>(tree, group[k].x, group[k].y, group[k].inside, level, d[k]);
@@ -119,16 +124,16 @@ OBSCURA_INLINE F32 stored_of_block(const TreeCode& tree, const std::uint8_t* bas
     const I32 apart = select(inside, (g.x ^ splat(x0)) | (g.y ^ splat(y0)), splat(std::int32_t{0}));
     const int parted = common_height(united_bits(apart));
     const int height = parted > level ? parted : level;
-    Descents16 d;
+    Descents16<Code> d;
     if (tree.top != nullptr && height > tree.levels - tree.top_levels) {
         // Far apart: each from its own place in the grid.
         const int at = enter<Code>(tree, g.x, g.y, g.inside, level, d);
         descend_to<Code>(tree, base, at, level, g.x, g.y, d);
         return values(Code{}, tree, base, d);
     }
-    const TopNode place = extend_path<Code>(tree, x0, y0, height, path);
+    const TreePlace place = extend_path<Code>(tree, x0, y0, height, path);
     if (height == level || place.node == no_tree_node) return splat(Code::depth(tree, place));
-    d = descents_from(place, inside);
+    d = descents_from<Code>(place, inside);
     descend_to<Code>(tree, base, height, level, g.x, g.y, d);
     return values(Code{}, tree, base, d);
 }

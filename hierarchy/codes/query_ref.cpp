@@ -9,7 +9,7 @@ namespace {
 /// Lazy fetching: the way down carries only the place of the last value.
 template <class Code>
 float value_of(const TreeCode& tree, std::int32_t x, std::int32_t y, int level) {
-    TopNode place = Code::root(tree);
+    TreePlace place = Code::root(tree);
     for (int height = tree.levels; height > level && place.node != no_tree_node; --height)
         place = Code::child(tree, place, height, x, y);
     return Code::depth(tree, place);

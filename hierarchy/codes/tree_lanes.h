@@ -7,6 +7,7 @@
 //   values(Code{}, tree, base, d)                 the depths that the values on the ways come to
 
 #include "hierarchy/codes/tree_step.h"
+#include "hierarchy/dag/dag_lanes.h"
 #include "hierarchy/descents.h"
 #include "hierarchy/mh/mh_lanes.h"
 #include "hierarchy/mmh/mmh_lanes.h"
@@ -17,7 +18,7 @@ namespace {
 /// Down to nodes of height `stop`, or to where each lane ends.
 template <class Code>
 OBSCURA_INLINE void descend_to(const TreeCode& tree, const std::uint8_t* base, int height, int stop,
-                               const I32& x, const I32& y, Descents16& d) {
+                               const I32& x, const I32& y, Descents16<Code>& d) {
     for (; height > stop && any(d.inner); --height)
         descend(Code{}, tree, base, height, child_bit(height, x, y), d);
 }

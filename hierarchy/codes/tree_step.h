@@ -5,7 +5,7 @@
 // Scandolo, Bauszat, Eisemann 2016, section 3.2 (traversal) and figure 5 (the lowest common node of several
 // points is where the bits of their coordinates part).
 //
-// A code gives, as static functions (mh/mh_step.h and mmh/mmh_step.h):
+// A code gives, as static functions (mh/mh_step.h, mmh/mmh_step.h and dag/dag_step.h):
 //   root(tree)                         where every descent starts: the root has a value
 //   child(tree, place, height, x, y)   from a node of height `height` (>= 1) to its child that holds texel
 //                                      (x, y); the descent must not have ended
@@ -13,6 +13,7 @@
 
 #include <cstdint>
 
+#include "hierarchy/dag/dag_step.h"
 #include "hierarchy/mh/mh_step.h"
 #include "hierarchy/mmh/mmh_step.h"
 #include "hierarchy/tree_code.h"
@@ -23,6 +24,7 @@ namespace obscura {
 template <class F>
 OBSCURA_TREE_INLINE auto with_code(const TreeCode& tree, F&& f) {
     if (tree.code == ShadowCode::mmh) return f(MmhCode{});
+    if (tree.code == ShadowCode::dag) return f(DagCode{});
     return with_mh_layout(tree, f);
 }
 
@@ -34,7 +36,7 @@ OBSCURA_TREE_INLINE int common_height(std::uint32_t bits) {
 /// The way from the root to a texel, kept so that the next texel's descent starts where the two ways part. It
 /// has no use for a top grid: neighbours seldom part so far up.
 struct TreePath {
-    TopNode at[max_tree_levels + 1];  ///< by height, from `bottom` up
+    TreePlace at[max_tree_levels + 1];  ///< by height, from `bottom` up
     std::int32_t x = 0, y = 0;
     std::int32_t bottom = 0;  ///< where the descent ended, or how far it was asked for
     std::int32_t steps = 0;   ///< headers read so far
@@ -50,14 +52,14 @@ OBSCURA_TREE_INLINE void start_path(const TreeCode& tree, TreePath& path) {
 /// Turns the path to (x, y). Returns where its descent stands at `height`: at a node of that height, or
 /// ended.
 template <class Code>
-OBSCURA_TREE_INLINE TopNode extend_path(const TreeCode& tree, std::int32_t x, std::int32_t y, int height,
-                                        TreePath& path) {
+OBSCURA_TREE_INLINE TreePlace extend_path(const TreeCode& tree, std::int32_t x, std::int32_t y, int height,
+                                          TreePath& path) {
     const int parted = common_height(static_cast<std::uint32_t>((path.x ^ x) | (path.y ^ y)));
     path.x = x;
     path.y = y;
     if (path.bottom < parted) path.bottom = parted;
     if (path.bottom <= height) return path.at[height];
-    TopNode place = path.at[path.bottom];
+    TreePlace place = path.at[path.bottom];
     while (path.bottom > height && place.node != no_tree_node) {
         place = Code::child(tree, place, path.bottom, x, y);
         path.at[--path.bottom] = place;

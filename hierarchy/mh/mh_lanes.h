@@ -11,7 +11,7 @@ namespace {
 /// One level down, from nodes of height `height` (>= 1) to the children that child_bit() names.
 template <TreeLayout layout>
 OBSCURA_INLINE void descend(MhCode<layout>, const TreeCode& tree, const std::uint8_t* base, int height,
-                            const I32& bit, Descents16& d) {
+                            const I32& bit, Numbers16<false>& d) {
     using Code = MhCode<layout>;
     const I32 header = gather_bytes<static_cast<int>(Code::unit_bytes)>(base, d.node);
     const I32 kind = shift_right_logical(header, bit);
@@ -34,7 +34,8 @@ OBSCURA_INLINE void descend(MhCode<layout>, const TreeCode& tree, const std::uin
 }
 
 template <TreeLayout layout>
-OBSCURA_INLINE F32 values(MhCode<layout>, const TreeCode&, const std::uint8_t* base, const Descents16& d) {
+OBSCURA_INLINE F32 values(MhCode<layout>, const TreeCode&, const std::uint8_t* base,
+                          const Numbers16<false>& d) {
     return bitcast_f32(gather_bytes<static_cast<int>(MhCode<layout>::unit_bytes)>(base, d.value));
 }
 

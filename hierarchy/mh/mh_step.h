@@ -26,10 +26,12 @@ struct MhCode {
         return word;
     }
 
-    static OBSCURA_TREE_INLINE TopNode root(const TreeCode&) { return {0, header}; }
+    static constexpr bool counts_values = false;
 
-    static OBSCURA_TREE_INLINE TopNode child(const TreeCode& tree, TopNode at, int height, std::int32_t x,
-                                             std::int32_t y) {
+    static OBSCURA_TREE_INLINE TreePlace root(const TreeCode&) { return {0, header, 0, 0}; }
+
+    static OBSCURA_TREE_INLINE TreePlace child(const TreeCode& tree, TreePlace at, int height, std::int32_t x,
+                                               std::int32_t y) {
         const std::uint32_t head = word(tree, at.node);
         // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): no descent goes below height 1
         const int bit = (x >> (height - 1) & 1) * 2 + (y >> (height - 1) & 1) * 4;
@@ -41,10 +43,10 @@ struct MhCode {
             at.node + (head >> 8 & offset_mask) * tree.offset_scale[height] + low * low_bit + high * high_bit;
         // Kinds: low bit, it has a value; high bit, it has children, and a header before the value.
         const std::uint32_t value = node + (kind >> 1) * header;
-        return {(kind & 2u) != 0 ? node : no_tree_node, (kind & 1u) != 0 ? value : at.value};
+        return {(kind & 2u) != 0 ? node : no_tree_node, (kind & 1u) != 0 ? value : at.value, 0, 0};
     }
 
-    static OBSCURA_TREE_INLINE float depth(const TreeCode& tree, TopNode place) {
+    static OBSCURA_TREE_INLINE float depth(const TreeCode& tree, TreePlace place) {
         const std::uint32_t bits = word(tree, place.value);
         float value;
         __builtin_memcpy(&value, &bits, sizeof value);

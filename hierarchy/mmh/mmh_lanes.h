@@ -12,7 +12,7 @@ namespace {
 
 /// One level down, from nodes of height `height` (>= 1) to the children that child_bit() names.
 OBSCURA_INLINE void descend(MmhCode, const TreeCode& tree, const std::uint8_t* base, int height,
-                            const I32& bit, Descents16& d) {
+                            const I32& bit, Numbers16<false>& d) {
     const I32 header = gather_bytes<4>(base, d.node);
     const I32 kind = shift_right_logical(header, bit);
     const I32 below = header & shift_right_logical(splat(std::int32_t{0x3f}), splat(std::int32_t{6}) - bit);
@@ -32,11 +32,8 @@ OBSCURA_INLINE void descend(MmhCode, const TreeCode& tree, const std::uint8_t* b
     d.node = select(d.inner, child, d.node);
 }
 
-OBSCURA_INLINE F32 values(MmhCode, const TreeCode& tree, const std::uint8_t*, const Descents16& d) {
-    const I32 v = d.value ^ splat(biased(0));
-    if (tree.layout == TreeLayout::float_bits) return bitcast_f32(v);
-    return to_f32(shift_right_logical<16>(v)) * splat(0x1p-16f) +
-           to_f32(v & splat(std::int32_t{0xffff})) * splat(0x1p-32f);
+OBSCURA_INLINE F32 values(MmhCode, const TreeCode& tree, const std::uint8_t*, const Numbers16<false>& d) {
+    return depths_of(tree.layout, d.value ^ splat(biased(0)));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "hierarchy/mmh/fixed_depth.h"
+#include "hierarchy/fixed_depth.h"
 #include "hierarchy/tree_code.h"
 
 namespace obscura {
@@ -24,10 +24,12 @@ struct MmhCode {
         return word;
     }
 
-    static OBSCURA_TREE_INLINE TopNode root(const TreeCode& tree) { return {0, word(tree, header)}; }
+    static constexpr bool counts_values = false;
 
-    static OBSCURA_TREE_INLINE TopNode child(const TreeCode& tree, TopNode at, int height, std::int32_t x,
-                                             std::int32_t y) {
+    static OBSCURA_TREE_INLINE TreePlace root(const TreeCode& tree) { return {0, word(tree, header), 0, 0}; }
+
+    static OBSCURA_TREE_INLINE TreePlace child(const TreeCode& tree, TreePlace at, int height, std::int32_t x,
+                                               std::int32_t y) {
         const std::uint32_t head = word(tree, at.node);
         // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): no descent goes below height 1
         const int bit = (x >> (height - 1) & 1) * 2 + (y >> (height - 1) & 1) * 4;
@@ -35,10 +37,10 @@ struct MmhCode {
         const auto before = static_cast<std::uint32_t>(__builtin_popcount(head & ((1u << bit) - 1u)));
         const std::uint32_t node = at.node + (head >> 8) * tree.offset_scale[height] + before;
         if ((kind & 1u) != 0) at.value += word(tree, node + (kind >> 1) * header);
-        return {(kind & 2u) != 0 ? node : no_tree_node, at.value};
+        return {(kind & 2u) != 0 ? node : no_tree_node, at.value, 0, 0};
     }
 
-    static OBSCURA_TREE_INLINE float depth(const TreeCode& tree, TopNode place) {
+    static OBSCURA_TREE_INLINE float depth(const TreeCode& tree, TreePlace place) {
         return depth_of_fixed(tree.layout, place.value);
     }
 };

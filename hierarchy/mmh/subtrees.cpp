@@ -101,21 +101,13 @@ class Flattener {
     std::uint64_t units_ = 0;
 };
 
-bool holds_fractions(const MultiresTree& tree) {
-    if (range_of(tree.root_interval, TreeLayout::fractions).empty()) return false;
-    return std::none_of(tree.intervals.begin(), tree.intervals.end(), [](DepthInterval interval) {
-        return range_of(interval, TreeLayout::fractions).empty();
-    });
-}
-
 }  // namespace
 
 SubtreeSet subtrees_of(const MultiresTree& tree, TreeLayout layout) {
     CHECK(tree.dimensions == 2 && tree.levels >= 0 && tree.levels <= max_tree_levels);
     CHECK(tree.intervals.size() == tree.nodes.size(), "merging needs the nodes' intervals");
     SubtreeSet set;
-    set.layout = layout == TreeLayout::fractions && holds_fractions(tree) ? TreeLayout::fractions
-                                                                          : TreeLayout::float_bits;
+    set.layout = numbers_that_hold(tree, layout);
     set.values.reserve(tree.nodes.size() + 1);
     Flattener(tree, set).run();
     return set;

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "hierarchy/mmh/number_range.h"
 #include "hierarchy/multires.h"
+#include "hierarchy/number_range.h"
 
 namespace obscura {
 

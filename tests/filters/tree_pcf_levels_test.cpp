@@ -118,8 +118,10 @@ TEST(TreePcfLevels, ReachTheRootAndGoNoFurther) {
 TEST(TreePcfLevels, EveryOddSideAndMixedFootprintsAreTheSameOnEveryIsa) {
     const MultiresTree tree = build_bottom_up(chosen::patchy_intervals(64, 8).view());
     const ShadowTree trees[] = {encode_tree(tree, {}, {TreeLayout::bytes16, 2}),
-                                encode_tree(tree, {}, params_of(code_cases[3], 2))};
+                                encode_tree(tree, {}, params_of(code_cases[3], 2)),
+                                encode_tree(tree, {}, params_of(code_cases[5], 2))};
     ASSERT_EQ(trees[1].code.code, ShadowCode::mmh);
+    ASSERT_EQ(trees[2].code.code, ShadowCode::dag);
     std::vector<SurfaceBlock> blocks = chosen::blocks_at(chosen::places_everywhere(64, 3), 0.03f, 4);
     std::mt19937 rng(3);
     for (SurfaceBlock& b : blocks) {
@@ -127,9 +129,9 @@ TEST(TreePcfLevels, EveryOddSideAndMixedFootprintsAreTheSameOnEveryIsa) {
             depth = -1.0f / static_cast<float>(1 + rng() % 40);
     }
     for (const int side : {1, 3, 5, 7, 15}) {
-        for (const bool parallel : {true, false}) {
-            PcfLight light = chosen::light_above(64, side, parallel);
-            light.view[0].tree = &trees[parallel ? 1 : 0].code;
+        for (const ShadowTree& encoded : trees) {
+            PcfLight light = chosen::light_above(64, side, encoded.code.code != ShadowCode::mh);
+            light.view[0].tree = &encoded.code;
             CameraRays rays = camera_above(0);
             // Distances vary from lane to lane, and with them the levels.
             rays.perspective = true;

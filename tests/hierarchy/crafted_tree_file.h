@@ -28,7 +28,10 @@ inline ShadowTree small_tree(TreeLayout layout = TreeLayout::words24, int top = 
 inline ShadowTree small_tree(const CodeCase& c, int top = 1) {
     return encode_tree(build_bottom_up(random_interval_map(4, 16).view()), any_view(4), params_of(c, top));
 }
-inline constexpr CodeCase merged_case = code_cases[3], merged_bits_case = code_cases[4];
+inline constexpr CodeCase merged_case = code_cases[3], merged_bits_case = code_cases[4],
+                          dag_case = code_cases[5], dag_bits_case = code_cases[6],
+                          dag_low_case = code_cases[7], packed_case = code_cases[11],
+                          packed_bits_case = code_cases[12], packed_low_case = code_cases[13];
 
 inline std::vector<std::uint8_t> bytes_of(const std::filesystem::path& path) {
     std::ifstream in(path, std::ios::binary);

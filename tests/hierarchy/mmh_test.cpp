@@ -8,10 +8,11 @@
 #include "hierarchy/codes/codes.h"
 #include "hierarchy/codes/decode.h"
 #include "hierarchy/combine.h"
-#include "hierarchy/mmh/fixed_depth.h"
+#include "hierarchy/fixed_depth.h"
 #include "hierarchy/mmh/mmh.h"
 #include "hierarchy/tree_units.h"
 #include "tests/hierarchy/code_cases.h"
+#include "tests/hierarchy/lossless.h"
 #include "tests/hierarchy/tree_samples.h"
 
 namespace obscura {
@@ -22,27 +23,6 @@ EncodeParams merged_params(int search_limit = 1000) {
     params.code = ShadowCode::mmh;
     params.merge.search_limit = search_limit;
     return params;
-}
-
-/// Every texel's depth lies in its interval, zero tolerance; the top grid finds the same.
-void expect_lossless(const Image<DepthInterval>& map, const EncodeParams& params, const std::string& name) {
-    const MultiresTree tree = build_bottom_up(map.view());
-    ShadowTree merged = encode_tree(tree, {}, params);
-    set_top_grid(merged, std::min(3, tree.levels));
-    ASSERT_EQ(row_of(merged.code.code).fault_of(merged), nullptr) << name;
-    int outside = 0;
-    for (int y = 0; y < map.height; ++y) {
-        for (int x = 0; x < map.width; ++x) {
-            const auto ux = static_cast<std::uint32_t>(x), uy = static_cast<std::uint32_t>(y);
-            const float depth = tree_value(merged.code, ux, uy);
-            const DepthInterval i = map(x, y);
-            outside += i.entry <= depth && depth <= i.exit ? 0 : 1;
-            if (merged.code.top != nullptr) {
-                ASSERT_EQ(tree_value_from_top(merged.code, ux, uy), depth);
-            }
-        }
-    }
-    EXPECT_EQ(outside, 0) << name;
 }
 
 // --- numbers -----------------------------------------------------------------------------------------------
@@ -122,60 +102,14 @@ TEST(MergedTree, IsLosslessOnEverySample) {
     }
 }
 
-/// Solids that touch, nest, coincide, cross and are open or turned inside out, in every kind of view.
 TEST(MergedTree, IsLosslessOnSolidsOfEveryKindAndInPerspective) {
-    const Vec3d ways[] = {{0.3, -1, 0.2}, {1, -0.12, 0.4}, {0, -1, 0}};
     int merged = 0;
-    for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-        for (const bool open : {false, true}) {
-            const Mesh mesh = solids::random_solids(seed + 20, 60, open, seed % 2 == 0);
-            const Bounds b = bounds_of(mesh);
-            for (const Vec3d& way : ways) {
-                const Vec3d to = normalize(way), middle = (b.low + b.high) * 0.5;
-                const LightView views[] = {
-                    orthographic_light_view(b, to, 128),
-                    perspective_light_view(middle - to * 14.0, to, 40, 4, 30, 128),
-                };
-                for (const LightView& view : views) {
-                    for (const Receivers receivers : {Receivers::any, Receivers::static_only}) {
-                        IntervalParams params;
-                        params.receivers = receivers;
-                        const Image<DepthInterval> map = interval_map(mesh, view, params, Exec{});
-                        expect_lossless(map, merged_params(0), "solids " + std::to_string(seed));
-                        const MultiresTree tree = build_bottom_up(map.view());
-                        merged += encode_tree(tree, {}, merged_params()).bytes < encode_tree(tree, {}).bytes;
-                    }
-                }
-            }
-        }
-    }
+    for_each_solid_map([&](const Image<DepthInterval>& map, const std::string& name) {
+        expect_lossless(map, merged_params(0), name);
+        const MultiresTree tree = build_bottom_up(map.view());
+        merged += encode_tree(tree, {}, merged_params()).bytes < encode_tree(tree, {}).bytes;
+    });
     EXPECT_GT(merged, 80) << "something was merged nearly everywhere";
-}
-
-/// Every node has its twin in the tree it was made of, and its value is one of the twin's interval.
-void expect_same_topology(const ShadowTree& encoded, const MultiresTree& tree) {
-    const MultiresTree behind = tree_behind(encoded, tree);
-    ASSERT_EQ(behind.nodes.size(), tree.nodes.size());
-    ASSERT_EQ(behind.root.kinds, tree.root.kinds);
-    ASSERT_TRUE(contains(tree.root_interval, behind.root.value));
-    std::vector<char> has_value(tree.nodes.size(), 0);
-    const auto mark = [&](const MultiresNode& parent) {
-        std::uint64_t at = parent.first_child();
-        for (int i = 0; i < 4; ++i) {
-            const ChildKind kind = parent.child(i);
-            if (kind == ChildKind::none) continue;
-            has_value[at++] = kind != ChildKind::empty;
-        }
-    };
-    mark(tree.root);
-    for (const MultiresNode& node : tree.nodes)
-        if (node.kinds != 0) mark(node);
-    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-        ASSERT_EQ(behind.nodes[i].kinds, tree.nodes[i].kinds);
-        if (has_value[i] != 0) {
-            ASSERT_TRUE(contains(tree.intervals[i], behind.nodes[i].value)) << "node " << i;
-        }
-    }
 }
 
 TEST(MergedTree, UnfoldsToTheTreeItWasMadeOf) {

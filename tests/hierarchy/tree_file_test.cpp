@@ -141,9 +141,11 @@ TEST(TreeFile, SaysWhatIsWrong) {
 }
 
 TEST(TreeFile, RefusesEveryAlteredByteAndEveryLength) {
-    const std::vector<std::uint8_t> good = file_of({small_tree(), small_tree(TreeLayout::bytes16),
-                                                    small_tree(merged_case), small_tree(merged_bits_case)});
-    ASSERT_LT(good.size(), 8000u);
+    const std::vector<std::uint8_t> good =
+        file_of({small_tree(), small_tree(TreeLayout::bytes16), small_tree(merged_case),
+                 small_tree(merged_bits_case), small_tree(dag_case), small_tree(dag_bits_case),
+                 small_tree(packed_case), small_tree(packed_low_case)});
+    ASSERT_LT(good.size(), 12000u);
     EXPECT_TRUE(try_trees(good, false));
     std::vector<std::uint8_t> bytes = good;
     for (std::size_t i = 0; i < bytes.size(); ++i) {
@@ -217,7 +219,7 @@ TEST(TreeFile, ReadsFilesOfBefore) {
         EXPECT_TRUE(try_trees(bytes_of(entry.path()), false));
         ++files;
     }
-    EXPECT_EQ(files, 11);
+    EXPECT_EQ(files, 20);
 }
 
 TEST(TreeFile, RefusesTreesThatShareChildren) {

@@ -16,7 +16,8 @@ raster/exact     raster
 hierarchy        raster
 hierarchy/mh     hierarchy
 hierarchy/mmh    hierarchy
-hierarchy/codes  hierarchy/mh hierarchy/mmh
+hierarchy/dag    hierarchy
+hierarchy/codes  hierarchy/dag hierarchy/mh hierarchy/mmh
 hierarchy/stack  hierarchy
 filters          hierarchy/codes
 optics/field     core

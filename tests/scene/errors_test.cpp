@@ -196,8 +196,8 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:8:17: 'layout' must be one of \"words24\", \"words16\", \"bytes16\", not \"words32\"; did "
          "you "
          "mean 'words24'?"},
-        {"UnknownCode", light(directional + "shadow.code = \"dag\""),
-         "s.toml:8:15: 'code' must be one of \"mh\", \"mmh\", not \"dag\""},
+        {"UnknownCode", light(directional + "shadow.code = \"tree\""),
+         "s.toml:8:15: 'code' must be one of \"mh\", \"mmh\", \"dag\", not \"tree\""},
         {"LayoutOfMergedTrees", light(directional + "shadow = {code = \"mmh\", layout = \"words16\"}"),
          "s.toml:8:25: 'layout' needs code = \"mh\""},
         {"PartsOfMergedTrees", light(directional + "shadow = {code = \"mmh\", scope = \"frame\"}"),

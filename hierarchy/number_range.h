@@ -20,6 +20,10 @@ struct NumberRange {
 /// which no range is empty.
 NumberRange range_of(DepthInterval interval, TreeLayout layout);
 
+/// Fractions where every interval of the tree, whose nodes' intervals must be there, holds one and `wanted`
+/// is that; else float bits.
+TreeLayout numbers_that_hold(const MultiresTree& tree, TreeLayout wanted);
+
 /// The number that is written for a range: that of the depth that stored_depth() takes of an interval, as
 /// near as can be.
 std::uint32_t stored_number(NumberRange range, TreeLayout layout);

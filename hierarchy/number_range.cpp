@@ -1,10 +1,10 @@
-#include "hierarchy/mmh/number_range.h"
+#include "hierarchy/number_range.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "hierarchy/mmh/fixed_depth.h"
+#include "hierarchy/fixed_depth.h"
 
 namespace obscura {
 namespace {
@@ -53,6 +53,13 @@ NumberRange range_of(DepthInterval interval, TreeLayout layout) {
     // Zeros of either sign are one depth.
     return {std::bit_cast<std::uint32_t>(interval.entry + 0.0f),
             std::bit_cast<std::uint32_t>(interval.exit + 0.0f)};
+}
+
+TreeLayout numbers_that_hold(const MultiresTree& tree, TreeLayout wanted) {
+    const auto none = [](DepthInterval interval) { return fractions_of(interval).empty(); };
+    const bool fractions = wanted == TreeLayout::fractions && !none(tree.root_interval) &&
+                           std::none_of(tree.intervals.begin(), tree.intervals.end(), none);
+    return fractions ? TreeLayout::fractions : TreeLayout::float_bits;
 }
 
 std::uint32_t stored_number(NumberRange range, TreeLayout layout) {
