@@ -20,54 +20,54 @@ Vec3d middle_of(const EmitterPiece& piece) {
 
 /// A piece of a piece, as cutting in halves sees it.
 struct Chip {
-    Vec3d middle;
+    double at[6];  ///< middle, metres, and normal times the surface's extent
     double area_m2;
     std::uint32_t piece;
     std::uint32_t order;  ///< among all, which settles ties
 };
 
-/// Quarters a triangle until no chip is larger than `most_m2`.
-void add_chips(Vec3d a, Vec3d b, Vec3d c, double area_m2, double most_m2, std::uint32_t piece,
-               std::vector<Chip>& chips) {
-    if (area_m2 <= most_m2) {
-        chips.push_back({(a + b + c) * (1.0 / 3), area_m2, piece, static_cast<std::uint32_t>(chips.size())});
-        return;
-    }
-    const Vec3d ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
-    add_chips(a, ab, ca, area_m2 / 4, most_m2, piece, chips);
-    add_chips(ab, b, bc, area_m2 / 4, most_m2, piece, chips);
-    add_chips(ca, bc, c, area_m2 / 4, most_m2, piece, chips);
-    add_chips(ab, bc, ca, area_m2 / 4, most_m2, piece, chips);
-}
-
-/// Cuts the surface in parts.
+/// Cuts the surface in parts, by where it is and by where it faces: what shines to both sides of a sheet, or
+/// around a tube, is not one part.
 class Halving {
   public:
     Halving(const EmitterSurface& surface, int count) : surface_(surface) {
-        // Sixteen chips a part, at least half as many.
+        // At least sixteen chips a part.
+        most_m2_ = surface.area_m2 / (16.0 * count);
         for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
             const EmitterPiece& p = surface.pieces[i];
-            add_chips(p.corner[0], p.corner[1], p.corner[2], p.area_m2, surface.area_m2 / (16.0 * count),
-                      static_cast<std::uint32_t>(i), chips_);
+            add_chips(p.corner[0], p.corner[1], p.corner[2], p.area_m2, static_cast<std::uint32_t>(i));
         }
+        points.reserve(static_cast<std::size_t>(count));
         cut(0, chips_.size(), count);
     }
 
     std::vector<EmitterPoint> points;
 
   private:
+    /// Quarters a triangle until no chip is too large.
+    void add_chips(Vec3d a, Vec3d b, Vec3d c, double area_m2, std::uint32_t piece) {
+        if (area_m2 <= most_m2_) {
+            const Vec3d p = (a + b + c) * (1.0 / 3), n = surface_.pieces[piece].normal * surface_.radius_m;
+            chips_.push_back(
+                {{p.x, p.y, p.z, n.x, n.y, n.z}, area_m2, piece, static_cast<std::uint32_t>(chips_.size())});
+            return;
+        }
+        const Vec3d ab = (a + b) * 0.5, bc = (b + c) * 0.5, ca = (c + a) * 0.5;
+        add_chips(a, ab, ca, area_m2 / 4, piece);
+        add_chips(ab, b, bc, area_m2 / 4, piece);
+        add_chips(ca, bc, c, area_m2 / 4, piece);
+        add_chips(ab, bc, ca, area_m2 / 4, piece);
+    }
+
     void cut(std::size_t begin, std::size_t end, int count) {
         if (count == 1) {
             points.push_back(point_of(begin, end));
             return;
         }
-        const int axis = longest_axis(begin, end);
-        const auto along = [&](const Chip& c) {
-            return axis == 0 ? c.middle.x : axis == 1 ? c.middle.y : c.middle.z;
-        };
+        const std::size_t axis = longest_axis(begin, end);
         std::sort(chips_.begin() + static_cast<std::ptrdiff_t>(begin),
                   chips_.begin() + static_cast<std::ptrdiff_t>(end), [&](const Chip& a, const Chip& b) {
-                      return along(a) != along(b) ? along(a) < along(b) : a.order < b.order;
+                      return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.order < b.order;
                   });
         double all = 0;
         for (std::size_t i = begin; i < end; ++i)
@@ -81,41 +81,52 @@ class Halving {
         cut(at, end, count - first);
     }
 
-    int longest_axis(std::size_t begin, std::size_t end) const {
-        Vec3d low = chips_[begin].middle, high = low;
-        for (std::size_t i = begin; i < end; ++i) {
-            const Vec3d p = chips_[i].middle;
-            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    std::size_t longest_axis(std::size_t begin, std::size_t end) const {
+        std::size_t longest = 0;
+        double most = -1;
+        for (std::size_t axis = 0; axis < 6; ++axis) {
+            double low = chips_[begin].at[axis], high = low;
+            for (std::size_t i = begin; i < end; ++i) {
+                low = std::min(low, chips_[i].at[axis]);
+                high = std::max(high, chips_[i].at[axis]);
+            }
+            // Of what is as long the first, but for the rounding of normals.
+            if (high - low > most * (1 + 1e-9)) {
+                most = high - low;
+                longest = axis;
+            }
         }
-        const Vec3d size = high - low;
-        if (size.x >= size.y && size.x >= size.z) return 0;
-        return size.y >= size.z ? 1 : 2;
+        return longest;
     }
 
     /// The chip nearest to the part's middle stands for it: a place that is on the surface.
     EmitterPoint point_of(std::size_t begin, std::size_t end) const {
         CHECK(begin < end);
-        Vec3d sum{0, 0, 0};
-        double area = 0;
+        double middle[6] = {}, area = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            sum = sum + chips_[i].middle * chips_[i].area_m2;
             area += chips_[i].area_m2;
+            for (std::size_t axis = 0; axis < 6; ++axis)
+                middle[axis] += chips_[i].at[axis] * chips_[i].area_m2;
         }
-        const Vec3d middle = sum * (1 / area);
-        std::size_t nearest = begin;
-        const auto away = [&](std::size_t i) {
-            const Vec3d d = chips_[i].middle - middle;
-            return dot(d, d);
+        const auto away = [&](const Chip& chip) {
+            double sum = 0;
+            for (std::size_t axis = 0; axis < 6; ++axis) {
+                const double d = chip.at[axis] - middle[axis] / area;
+                sum += d * d;
+            }
+            return sum;
         };
+        const Chip* nearest = &chips_[begin];
         for (std::size_t i = begin + 1; i < end; ++i) {
-            if (away(i) < away(nearest)) nearest = i;
+            if (away(chips_[i]) < away(*nearest)) nearest = &chips_[i];
         }
-        const Chip& chip = chips_[nearest];
-        return {chip.middle, surface_.pieces[chip.piece].normal, area / surface_.area_m2};
+        return {{nearest->at[0], nearest->at[1], nearest->at[2]},
+                surface_.pieces[nearest->piece].normal,
+                area / surface_.area_m2};
     }
 
     const EmitterSurface& surface_;
+    double most_m2_ = 0;
     std::vector<Chip> chips_;
 };
 

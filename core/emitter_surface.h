@@ -33,9 +33,9 @@ struct EmitterPoint {
 };
 
 /// `count` points that stand for about as much of the surface each. It is cut in halves of as much area,
-/// across its longest side, and these again; a point stands near the middle of each of the last parts. Parts
-/// that were cut last follow one another, so that every 2nd, 4th ... point is evenly spread as well. Not for
-/// surfaces without pieces.
+/// across the longest side of what it spans in space and, as wide as all of it, in directions it faces; and
+/// these again. A point stands near the middle of each of the last parts. Parts that were cut last follow one
+/// another, so that every 2nd, 4th ... point is evenly spread as well. Not for surfaces without pieces.
 std::vector<EmitterPoint> emitter_points(const EmitterSurface& surface, int count);
 
 }  // namespace obscura

@@ -143,7 +143,8 @@ std::string stack_text(const SceneLight& light, const std::optional<FoundResolut
 
 /// Whether a stack of the light, which is kept for all frames, would take less time than `exact`.
 bool stack_pays(const SceneDocument& document, const SceneLight& light, const Scene& scene) {
-    const bool somewhere = is_soft(light) && !is_parallel(light.light.kind);
+    const bool somewhere =
+        is_soft(light) && !is_parallel(light.light.kind) && light.light.kind != LightKind::surface;
     if (!somewhere || scene_frames(document).count() < stack_break_even_frames) return false;
     for (const SceneTable* k : subtables(subtable(document.root, "frames"), "light"))
         if (text(*k, "id") == light.light.id) return false;

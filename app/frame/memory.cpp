@@ -76,6 +76,8 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
         known.lights.value_or(std::span<const SceneLight>(scene.lights));
     MemoryEstimate e;
     e.meshes = mesh_bytes(mesh);
+    for (const auto& [name, surface] : scene.emitters)
+        e.meshes += static_cast<std::int64_t>(surface->pieces.capacity() * sizeof(EmitterPiece));
     for (const Texture& texture : scene.textures) {
         for (const auto& level : texture.levels)
             e.textures += static_cast<std::int64_t>(level.pixels.size() * sizeof(Vec3f));

@@ -76,9 +76,10 @@ std::int64_t top_bytes(const SceneLight& light) {
                      (std::int64_t{sizeof(TopNode)} << (2 * light.shadow.top_levels));
 }
 
-/// What every thread takes to put the casters of a light in order (raster/exact/caster_pool.h).
-std::int64_t caster_pool_bytes(const MeshSize& mesh) {
-    return hardware_threads() * (setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles));
+/// What threads take to put the casters of so many lights in order (raster/exact/caster_pool.h).
+std::int64_t caster_pool_bytes(const MeshSize& mesh, int lights) {
+    const int threads = hardware_threads(), scratches = lights < threads ? 1 : threads;
+    return scratches * (setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles));
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ std::int64_t exact_casters_bytes(const MeshSize& mesh, std::span<const SceneLigh
 
 std::int64_t exact_work_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky) {
     if (!any_exact(lights) && !is_occluded(sky)) return 0;
-    return casters_sorting_bytes(mesh.triangles) + (sends_on(sky) ? surface_light_work_bytes(mesh) : 0);
+    return sends_on(sky) ? surface_light_work_bytes(mesh) : 0;
 }
 
 std::int64_t stacks_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
@@ -127,7 +128,8 @@ std::int64_t exact_tiles_bytes(std::span<const SceneLight> lights, const Sky& sk
 std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight> lights, const Sky& sky,
                                const RenderSettings& render) {
     // Points that are no disc's have casters of their own, set up meanwhile by every thread.
-    const std::int64_t own = soft_pass_bytes(mesh, false) + caster_pool_bytes(mesh);
+    const std::int64_t own =
+        soft_pass_bytes(mesh, false) + caster_pool_bytes(mesh, soft_points_together(mesh, false));
     std::int64_t most = is_occluded(sky) ? own : 0;
     for (const SceneLight& light : lights) {
         if (is_soft(light))
@@ -138,7 +140,7 @@ std::int64_t soft_passes_bytes(const MeshSize& mesh, std::span<const SceneLight>
 
 std::int64_t sun_hours_pass_bytes(const MeshSize& mesh, int steps) {
     if (steps == 0) return 0;
-    return sun_pass_bytes(mesh, steps) + caster_pool_bytes(mesh);
+    return sun_pass_bytes(mesh, steps) + caster_pool_bytes(mesh, suns_together(mesh, steps));
 }
 
 std::int64_t sun_hours_tiles_bytes(const MeshSize& mesh, int steps) {
@@ -206,15 +208,16 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
 
 std::int64_t kept_setup_bytes(const MeshSize& mesh, std::span<const SceneLight> lights) {
     std::int64_t bytes = 0;
+    bool exact = false;
     for (const SceneLight& light : lights) {
         const int side = light.shadow.resolution;
         if (light.shadow.method == ShadowMethod::map) {
             bytes =
                 std::max(bytes, setup_bytes(mesh) + bin_bytes(mesh.triangles, side, side, frame_tile_side));
         }
-        if (light.shadow.method == ShadowMethod::exact) bytes = std::max(bytes, setup_bytes(mesh));
+        exact |= light.shadow.method == ShadowMethod::exact;
     }
-    return bytes;
+    return bytes + (exact ? setup_bytes(mesh) + casters_sorting_bytes(mesh.triangles) : 0);
 }
 
 }  // namespace obscura

@@ -151,9 +151,12 @@ bool is_soft(const SceneLight& light) {
 int points_for_penumbra(const SceneLight& light, float widest_px) {
     if (!is_soft(light)) return 1;
     if (light.shadow.samples != auto_samples) return light.shadow.samples;
+    // Surfaces shine from more than their middle even where no penumbra shows, and of what stands between
+    // their ends the middle knows nothing.
+    const bool surface = light.light.kind == LightKind::surface;
     // Penumbrae narrower than a pixel are what its samples make of a hard edge.
-    if (widest_px < 1) return 1;
-    int points = 16;
+    if (!surface && widest_px < 1) return 1;
+    int points = surface ? 64 : 16;
     while (points < most_auto_samples && static_cast<float>(points) < widest_px)
         points *= 4;
     return points;
@@ -206,8 +209,8 @@ int soft_passes(const TileScene& tiles) {
 bool walk_soft_passes(const TileScene& tiles, const Exec& exec, const std::atomic<bool>* cancel,
                       std::span<LightShadowStats> stats,
                       const std::function<bool(const TileScene& pass)>& visit) {
-    CasterPool pool;
     for (const SoftLight& soft : tiles.soft) {
+        CasterPool pool;  // each light's own: what is spare of one is not kept beside the next
         const int m = strata(soft, tiles), points = static_cast<int>(soft.points.size()) / m;
         const int together = soft_points_together(size_of(*tiles.casters), soft.middle.has_value());
         double of_sky = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/frame/soft_light.h"
 #include "app/frame/surface_blur.h"
 #include "core/buffer.h"
 #include "core/num.h"
@@ -189,8 +190,10 @@ class Exchange {
     static std::vector<Asked> points_of(const SceneLight& light) {
         const bool narrow = is_parallel(light.light.kind) && light.light.angular_diameter_deg < narrow_deg;
         const bool sized = has_size(light.light) && light.shadow.samples != 1 && !narrow;
+        // Surfaces face all ways.
+        const int most = light.light.kind == LightKind::surface ? 4 * most_light_points : most_light_points;
         std::vector<Asked> points;
-        for (const Light& point : light_samples(light.light, sized ? most_light_points : 1))
+        for (const Light& point : light_samples(light.light, sized ? most : 1))
             points.push_back({point, 0, light.shadow.method != ShadowMethod::none});
         return points;
     }
@@ -207,8 +210,10 @@ class Exchange {
     bool ask(const PatchPoints& points, const std::vector<Asked>& lights, const SurfaceLight* sent,
              std::vector<Vec3f>& arriving) const {
         CasterPool pool;
-        // As many at a time as there are threads to put their casters in order.
-        const std::size_t together = static_cast<std::size_t>(hardware_threads());
+        // As many at a time as a pass holds, or as there are threads to put their casters in order.
+        const auto together =
+            static_cast<std::size_t>(std::min(exec_.threads > 0 ? exec_.threads : hardware_threads(),
+                                              soft_points_together(size_of(scene_.mesh), false)));
         for (std::size_t begin = 0; begin < lights.size(); begin += together) {
             const std::size_t end = std::min(begin + together, lights.size());
             std::vector<Light> some;

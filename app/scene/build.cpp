@@ -312,6 +312,7 @@ void add_emitters(Builder& b) {
             fail_at(place_of(*light, "material"), b.document.sources,
                     fmt::format("the scene has no material '{}'{}", name, hint(name, names)));
         }
+        if (b.scene.emitters.contains(name)) continue;
         const auto index = static_cast<std::size_t>(at - names.begin());
         auto surface = std::make_shared<const EmitterSurface>(
             emitter_surface(b.scene.mesh, static_cast<std::uint32_t>(index)));

@@ -286,7 +286,7 @@ KeyRows<Light> surface_rows() {
         key_row(&Light::material,
                 text_key("material",
                          "What has it sheds the light of its emission_w_m2_sr, from the side that its "
-                         "triangles face. Materials of mesh files are MESH/NAME.")
+                         "triangles face. Materials of files and slots of shapes are MESH/NAME.")
                     .need()),
         key_row(&Light::near_m, number_key("near_m",
                                            "Nothing nearer to a place that shines than this casts a "
@@ -314,9 +314,11 @@ const std::vector<LightKindRow>& light_kinds() {
          "a mesh there the same emission.",
          area_rows(), finish_area, check_area},
         {LightKind::surface, "surface",
-         "Light from all surfaces of a material that shines: lamps of any shape. With shadows that see its "
-         "middle alone (one sample, maps) it is a point there that gives off as much, and nothing nearer to "
-         "that than what shines casts a shadow.",
+         "Light from all surfaces of a material that shines: lamps of any shape, of which 64 points and more "
+         "are "
+         "asked. With one sample, maps or no shadows it is a point at its middle that gives off as much to "
+         "all "
+         "sides, and nothing nearer to that than what shines casts a shadow.",
          surface_rows(), nullptr, check_point},
     };
     return all;

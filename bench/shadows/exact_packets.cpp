@@ -51,6 +51,8 @@ struct PacketState {
             std::vector<Casters> casters = build_casters(scene.mesh, light.light, exec, scratch);
             lights.push_back(exact_light(light.light, casters, scene.mesh, samples.rays));
             asking.push_back(asked_samples(samples, std::span(&lights.back(), 1), exec)[0]);
+            for (ExactView& view : lights.back().view)
+                view = {};
             for (Casters& view : casters)
                 scratch.spare.push_back(std::move(view));
             near_m.push_back(static_cast<float>(light.light.near_m));

@@ -1,6 +1,7 @@
 #include "raster/exact/caster_pool.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/parallel.h"
@@ -10,10 +11,13 @@ namespace obscura {
 std::vector<std::vector<Casters>> CasterPool::build(const Mesh& mesh, std::span<const Light> lights,
                                                     const Exec& exec, const std::atomic<bool>* cancel) {
     std::vector<std::vector<Casters>> all(lights.size());
-    // A single light has all threads; of many each has one, which saves what threads wait for each other.
-    const Exec own = lights.size() == 1 ? exec : Exec{exec.isa, 1};
-    parallel_for(lights.size(), exec, [&](std::size_t i) {
-        std::unique_ptr<CasterScratch> scratch = take();
+    // Few lights have all threads one by one; of many each has one, which saves what threads wait for each
+    // other.
+    const auto threads = static_cast<std::size_t>(exec.threads > 0 ? exec.threads : hardware_threads());
+    const bool few = lights.size() < threads;
+    const Exec own = few ? exec : Exec{exec.isa, 1};
+    parallel_for(lights.size(), few ? Exec{exec.isa, 1} : exec, [&](std::size_t i) {
+        std::unique_ptr<CasterScratch> scratch = take(lights[i]);
         all[i] = build_casters(mesh, lights[i], own, *scratch, cancel);
         put(std::move(scratch));
     });
@@ -27,8 +31,8 @@ void CasterPool::give_back(std::vector<std::vector<Casters>> casters) {
         std::move(views.begin(), views.end(), std::back_inserter(spare_));
 }
 
-std::unique_ptr<CasterScratch> CasterPool::take() {
-    constexpr std::size_t most_views = 6;
+std::unique_ptr<CasterScratch> CasterPool::take(const Light& light) {
+    const auto views = static_cast<std::size_t>(shadow_view_count(light.kind));
     const std::scoped_lock lock(mutex_);
     std::unique_ptr<CasterScratch> scratch;
     if (free_.empty()) {
@@ -37,7 +41,7 @@ std::unique_ptr<CasterScratch> CasterPool::take() {
         scratch = std::move(free_.back());
         free_.pop_back();
     }
-    while (scratch->spare.size() < most_views && !spare_.empty()) {
+    while (scratch->spare.size() < views && !spare_.empty()) {
         scratch->spare.push_back(std::move(spare_.back()));
         spare_.pop_back();
     }
@@ -46,6 +50,8 @@ std::unique_ptr<CasterScratch> CasterPool::take() {
 
 void CasterPool::put(std::unique_ptr<CasterScratch> scratch) {
     const std::scoped_lock lock(mutex_);
+    std::move(scratch->spare.begin(), scratch->spare.end(), std::back_inserter(spare_));
+    scratch->spare.clear();
     free_.push_back(std::move(scratch));
 }
 

@@ -23,7 +23,7 @@ class CasterPool {
     void give_back(std::vector<std::vector<Casters>> casters);
 
   private:
-    std::unique_ptr<CasterScratch> take();
+    std::unique_ptr<CasterScratch> take(const Light& light);
     void put(std::unique_ptr<CasterScratch> scratch);
 
     std::mutex mutex_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/emitter_surface.h"
+#include "core/error.h"
 #include "core/num.h"
 #include "core/scalar_lanes.h"
 #include "core/scene.h"
@@ -22,7 +23,10 @@ double row_length(const double (&row)[4]) {
 }
 
 double largest_radius(const Light& l) {
-    if (l.kind == LightKind::surface) return l.surface->radius_m;
+    if (l.kind == LightKind::surface) {
+        CHECK(l.surface != nullptr, "a light of surfaces without any");
+        return l.surface->radius_m;
+    }
     if (l.kind != LightKind::area) return l.radius_m;
     // The corner of a rectangle; of an ellipse, the end of the longer axis.
     if (l.shape == AreaShape::disc) return 0.5 * std::max(l.width_m, l.height_m);

@@ -83,6 +83,74 @@ TEST(SurfaceLamp, ABallShinesAsAPointAtItsMiddle) {
     }
 }
 
+/// Light that leaves the middle of the floor, and of a ceiling as far above the lamp at y = 0.8.
+struct BothSides {
+    double floor, ceiling;
+};
+BothSides both_sides(const std::string& lamp, const std::string& samples) {
+    const std::string ceiling =
+        "[[mesh]]\nid = \"ceiling\"\nshape = \"plane\"\nwidth_m = 200\ndepth_m = 200\n"
+        "rotate_deg = [180, 0, 0]\ntranslate_m = [0, 1.6, 0]\nmaterial = \"white\"\n";
+    const std::string light =
+        surface_light_text + (samples.empty() ? "" : "shadow = { samples = " + samples + " }\n");
+    const std::string down = floor_scene(lamp + ceiling, light);
+    std::string up = down;
+    for (const auto& [from, to] :
+         {std::pair<std::string, std::string>{"eye_m = [0, 0.4, 0]", "eye_m = [0, 1.2, 0]"},
+          {"look_at_m = [0, 0, 0]", "look_at_m = [0, 1.6, 0]"}})
+        up.replace(up.find(from), from.size(), to);
+    const auto middle = [](const Frame& frame) {
+        double sum = 0;
+        for (int y = 24; y < 40; ++y) {
+            for (int x = 24; x < 40; ++x)
+                sum += static_cast<double>(pixel(frame, x, y).x) / 256;
+        }
+        return sum;
+    };
+    return {middle(render(down)), middle(render(up))};
+}
+
+TEST(SurfaceLamp, WhatShinesToAllSidesIsAsBrightFromEach) {
+    const std::string sheet =
+        "[[mesh]]\nid = \"sheet\"\nshape = \"box\"\nsize_m = [1, 0.01, 1]\ntranslate_m = [0, 0.8, 0]\n"
+        "material = \"glow\"\n";
+    const std::string tube =
+        "[[mesh]]\nid = \"tube\"\nshape = \"cylinder\"\nradius_m = 0.01\nheight_m = 1.2\n"
+        "rotate_deg = [0, 0, 90]\ntranslate_m = [0.6, 0.8, 0]\nmaterial = \"glow\"\n";
+    // Nine, of which few points show few sides each.
+    std::string balls =
+        "[[mesh]]\nid = \"balls\"\nshape = \"sphere\"\nradius_m = 0.03\nsegments = 24\nrings = 12\n"
+        "material = \"glow\"\n";
+    for (int i = 0; i < 9; ++i)
+        balls += "[[mesh.instance]]\ntranslate_m = [" + std::to_string(0.3 * (i % 3) - 0.3) + ", 0.8, " +
+                 std::to_string(0.3 * (i / 3) - 0.3) + "]\n";
+    struct Case {
+        std::string lamp;
+        double near_64, near_16;
+    };
+    for (const Case& c : {Case{sheet, 0.03, 0.05}, {tube, 0.05, 0.15}, {balls, 0.2, 0.5}}) {
+        const BothSides truth = both_sides(c.lamp, "256");
+        EXPECT_NEAR(truth.floor / truth.ceiling, 1, 0.03);
+        for (const auto& [samples, near] : {std::pair{"64", c.near_64}, {"16", c.near_16}}) {
+            const BothSides few = both_sides(c.lamp, samples);
+            EXPECT_NEAR(few.floor / truth.floor, 1, near) << samples;
+            EXPECT_NEAR(few.ceiling / truth.ceiling, 1, near) << samples;
+        }
+    }
+}
+
+TEST(SurfaceLamp, APanelLightsNothingBehindItUnlessItIsTakenForAPoint) {
+    const std::string panel =
+        "[[mesh]]\nid = \"panel\"\nshape = \"plane\"\nwidth_m = 0.6\ndepth_m = 0.6\n"
+        "translate_m = [0, 0.8, 0]\nrotate_deg = [180, 0, 0]\nmaterial = \"glow\"\n";
+    // By default, too, where no penumbra is in sight.
+    const BothSides usual = both_sides(panel, "");
+    EXPECT_GT(usual.floor, 0.3);
+    EXPECT_EQ(usual.ceiling, 0);
+    const BothSides point = both_sides(panel, "1");
+    EXPECT_NEAR(point.floor, point.ceiling, 0.01 * point.floor);
+}
+
 TEST(SurfaceLamp, NothingOfAConvexLampShadesIt) {
     // All of the floor is lit evenly on either side: no ring or spoke of the lamp's own triangles.
     const std::string ball =
