@@ -57,7 +57,8 @@ TEST_P(AutoAccuracy, WrongPixelsAgainstExactRays) {
                     1e-6 * static_cast<double>(found.bytes), w.wrong, w.covered, 100 * w.fraction(),
                     kinds_text(w).c_str());
         EXPECT_GT(w.facing, 50000u);
-        EXPECT_FALSE(found.found->capped);
+        // The default asks for finer texels than there are where a scene is large.
+        if (most >= 0.5) EXPECT_FALSE(found.found->capped);
         EXPECT_LT(w.fraction(), most == 1.0   ? GetParam().most
                                 : most == 0.5 ? GetParam().most_fine
                                               : goal / 5);
