@@ -58,7 +58,9 @@ TEST_P(AutoAccuracy, WrongPixelsAgainstExactRays) {
                     kinds_text(w).c_str());
         EXPECT_GT(w.facing, 50000u);
         // The default asks for finer texels than there are where a scene is large.
-        if (most >= 0.5) EXPECT_FALSE(found.found->capped);
+        if (most >= 0.5) {
+            EXPECT_FALSE(found.found->capped);
+        }
         EXPECT_LT(w.fraction(), most == 1.0   ? GetParam().most
                                 : most == 0.5 ? GetParam().most_fine
                                               : goal / 5);
