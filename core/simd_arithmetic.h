@@ -23,6 +23,17 @@ OBSCURA_BINARY(|)
 OBSCURA_BINARY(^)
 #undef OBSCURA_BINARY
 
+/// Products wrap, as sums do: without a vector instruction for it (SSE2) lanes are multiplied one by one,
+/// where signed integers must not overflow.
+OBSCURA_INLINE I32 operator*(const I32& a, const I32& b) {
+    using Unsigned = xsimd::batch<std::uint32_t, I32::Reg::arch_type>;
+    I32 v;
+    for (int k = 0; k < I32::regs; ++k)
+        v.r[k] = xsimd::bitwise_cast<I32::Reg>(xsimd::bitwise_cast<Unsigned>(a.r[k]) *
+                                               xsimd::bitwise_cast<Unsigned>(b.r[k]));
+    return v;
+}
+
 template <class T>
 OBSCURA_INLINE Lanes<T> min(const Lanes<T>& a, const Lanes<T>& b) {
     Lanes<T> v;
