@@ -23,8 +23,8 @@ void fill_top(const TreeCode& tree, TreePlace place, int depth, std::uint32_t x,
     const std::uint32_t side = 1u << (k - depth);
     if (place.node == no_tree_node || depth == k) {
         for (std::uint32_t row = y; row < y + side; ++row) {
-            TopNode* entry =
-                grid.data() + ((static_cast<std::size_t>(row) << k) + x) * top_nodes_of(tree.code);
+            TopNode* entry = grid.data() + ((static_cast<std::size_t>(row) << k) + x) *
+                                               static_cast<std::size_t>(top_nodes_of(tree.code));
             for (std::uint32_t i = 0; i < side; ++i) {
                 *entry++ = {place.node, place.value};
                 if constexpr (Code::counts_values) *entry++ = {place.count, place.inside};
@@ -57,7 +57,7 @@ float tree_value_from_top(const TreeCode& tree, std::uint32_t x, std::uint32_t y
     CHECK(tree.top != nullptr);
     const int height = tree.levels - tree.top_levels;
     const std::size_t entry = (static_cast<std::size_t>(y >> height) << tree.top_levels) + (x >> height);
-    const TopNode* top = tree.top + entry * top_nodes_of(tree.code);
+    const TopNode* top = tree.top + entry * static_cast<std::size_t>(top_nodes_of(tree.code));
     return with_code(tree, [&]<class Code>(Code) {
         TreePlace place{top[0].node, top[0].value, 0, 0};
         if constexpr (Code::counts_values) {
@@ -74,8 +74,8 @@ void set_top_grid(ShadowTree& tree, int top_levels) {
     tree.code.top = nullptr;
     tree.code.top_levels = 0;
     if (top_levels == 0) return;
-    auto grid = std::make_shared<std::vector<TopNode>>(top_nodes_of(tree.code.code) *
-                                                       (std::size_t{1} << (2 * top_levels)));
+    auto grid = std::make_shared<std::vector<TopNode>>(
+        static_cast<std::size_t>(top_nodes_of(tree.code.code)) * (std::size_t{1} << (2 * top_levels)));
     with_code(tree.code, [&]<class Code>(Code) {
         fill_top<Code>(tree.code, Code::root(tree.code), 0, 0, 0, top_levels, *grid);
     });
