@@ -1,6 +1,6 @@
 #pragma once
-// Casters of lights in great number, one after the other: light by light side by side, each by one thread,
-// in memory that lights before them had.
+// Casters of lights in great number, in memory that lights before them had: side by side, each by one thread,
+// or one by one where there are fewer lights than threads.
 
 #include <atomic>
 #include <memory>
