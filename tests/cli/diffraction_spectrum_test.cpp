@@ -4,18 +4,13 @@
 
 #include <cmath>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 
 namespace obscura::test {
 namespace {
-
-Image<Vec3f> colour_pfm(const Folder& folder, const std::string& name) {
-    return std::get<Image<Vec3f>>(decode_pfm(file_text(folder / name), name));
-}
 
 TEST(DiffractionCommand, ColoursRunFromBlueInsideToRedOutside) {
     const Folder folder;
@@ -23,7 +18,7 @@ TEST(DiffractionCommand, ColoursRunFromBlueInsideToRedOutside) {
                                         "--size", "128", "--zoom", "16", "-o", "c.pfm", "-o", "c.png"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(folder.listing(), (std::vector<std::string>{"c.pfm", "c.png"}));
-    const Image<Vec3f> colour = colour_pfm(folder, "c.pfm");
+    const Image<Vec3f> colour = pfm<Vec3f>(folder / "c.pfm");
     // The first dark ring of blue lies inside that of red: on it blue is weaker than red, and at the centre
     // not.
     const Vec3f middle = colour(64, 64);
@@ -57,7 +52,7 @@ TEST(DiffractionCommand, SpectrumModesShowNearlyTheSame) {
                                      "--spectrum", "d65", "--overwrite", "-o", "c.pfm"});
         const Outcome run = run_in(folder, flags);
         EXPECT_EQ(run.code, 0) << run.err;
-        return colour_pfm(folder, "c.pfm");
+        return pfm<Vec3f>(folder / "c.pfm");
     };
     const Image<Vec3f> exact = colours({}), named = colours({"--spectrum-mode", "exact"});
     EXPECT_TRUE(exact == named) << "that is the default";

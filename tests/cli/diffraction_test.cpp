@@ -4,26 +4,21 @@
 
 #include <cmath>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 #include "tests/report/json_reader.h"
 
 namespace obscura::test {
 namespace {
-
-Image<float> grey_pfm(const Folder& folder, const std::string& name) {
-    return std::get<Image<float>>(decode_pfm(file_text(folder / name), name));
-}
 
 TEST(DiffractionCommand, ABoxGivesSquaredSincs) {
     const Folder folder;
     const Outcome run = run_in(
         folder, {"diffraction", "box", "--mask-size", "100", "--size", "128", "--zoom", "4", "-o", "b.pfm"});
     ASSERT_EQ(run.code, 0) << run.err;
-    const Image<float> power = grey_pfm(folder, "b.pfm");
+    const Image<float> power = pfm(folder / "b.pfm");
     const auto sinc2 = [](double x) {
         const double a = 3.14159265358979 * 90 * x / 512;  // 90 texels open, steps of 1 / 512 cycle
         return x == 0 ? 1.0 : std::pow(std::sin(a) / a, 2);
@@ -42,7 +37,7 @@ TEST(DiffractionCommand, SlitsDoNotDependOnTheMethod) {
             run_in(folder, {"diffraction", "slit", "--slits", "2", "--mask-size", "64", "--size", "64",
                             "--method", method, "-o", "s.pfm", "--overwrite"});
         ASSERT_EQ(run.code, 0) << run.err;
-        powers.push_back(grey_pfm(folder, "s.pfm"));
+        powers.push_back(pfm(folder / "s.pfm"));
     }
     for (const Image<float>& power : powers) {
         EXPECT_NEAR(power(32, 32), 1, 1e-5);
@@ -58,7 +53,7 @@ TEST(DiffractionCommand, MasksFromFiles) {
     const Outcome run = run_in(folder, {"diffraction", "slit.pgm", "--size", "64", "-o", "s.pfm"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_NE(run.out.find("4 x 1 texels of 2500 um"), std::string::npos) << run.out;
-    const Image<float> power = grey_pfm(folder, "s.pfm");
+    const Image<float> power = pfm(folder / "s.pfm");
     const auto sinc = [](double x) { return x == 0 ? 1.0 : std::sin(x) / x; };
     for (int x = 0; x < 64; ++x) {
         const double u = 3.14159265358979 * (x - 32) / 64;
@@ -83,7 +78,7 @@ TEST(DiffractionCommand, DirtScattersLightAside) {
                                "-o", "dirty.pfm"});
     ASSERT_EQ(run_in(folder, clean).code, 0);
     ASSERT_EQ(run_in(folder, dirty).code, 0);
-    const Image<float> a = grey_pfm(folder, "clean.pfm"), b = grey_pfm(folder, "dirty.pfm");
+    const Image<float> a = pfm(folder / "clean.pfm"), b = pfm(folder / "dirty.pfm");
     // Upright scratches spread light to the left and right, far more than up and down.
     double before = 0, aside = 0, upward = 0;
     for (int i = 90; i < 120; ++i) {
@@ -106,7 +101,7 @@ TEST(DiffractionCommand, CentreMovesTheWindow) {
     part.insert(part.end(), {"-o", "b.pfm", "--centre", "8,-4"});
     ASSERT_EQ(run_in(folder, whole).code, 0);
     ASSERT_EQ(run_in(folder, part).code, 0);
-    const Image<float> a = grey_pfm(folder, "a.pfm"), b = grey_pfm(folder, "b.pfm");
+    const Image<float> a = pfm(folder / "a.pfm"), b = pfm(folder / "b.pfm");
     for (int y = 4; y < 64; ++y) {
         for (int x = 0; x < 56; ++x)
             ASSERT_NEAR(b(x, y), a(x + 8, y - 4), 1e-6);
@@ -119,8 +114,8 @@ TEST(DiffractionCommand, AmplitudesSquareToThePower) {
         folder, {"diffraction", "whirl", "--mask-size", "128", "--size", "64", "--amplitude", "-o", "w.pfm"});
     ASSERT_EQ(run.code, 0) << run.err;
     EXPECT_EQ(folder.listing(), (std::vector<std::string>{"w.im.pfm", "w.pfm", "w.re.pfm"}));
-    const Image<float> power = grey_pfm(folder, "w.pfm"), re = grey_pfm(folder, "w.re.pfm"),
-                       im = grey_pfm(folder, "w.im.pfm");
+    const Image<float> power = pfm(folder / "w.pfm"), re = pfm(folder / "w.re.pfm"),
+                       im = pfm(folder / "w.im.pfm");
     double odd = 0;
     for (std::size_t i = 0; i < power.pixels.size(); ++i) {
         ASSERT_NEAR(power.pixels[i], re.pixels[i] * re.pixels[i] + im.pixels[i] * im.pixels[i], 1e-6f);
@@ -138,7 +133,7 @@ TEST(DiffractionCommand, ASpotStandsBehindADisc) {
     // 5 mm at 2 m: Fresnel number of the opening a^2 / (lambda z), intensity 4 sin^2(pi F / 2) on the axis.
     const double fresnel = 0.0025 * 0.0025 / (550e-9 * 2),
                  expected = 4 * std::pow(std::sin(1.5707963267948966 * fresnel), 2);
-    const Image<float> light = grey_pfm(folder, "c.pfm");
+    const Image<float> light = pfm(folder / "c.pfm");
     EXPECT_NEAR(light(32, 32), expected, 0.06) << "the mask has texels";
     EXPECT_NE(run.out.find("near field at 2000 mm"), std::string::npos) << run.out;
 }

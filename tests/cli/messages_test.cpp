@@ -5,12 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 
 namespace obscura::test {
 namespace {
-
-using Names = std::vector<std::string>;
 
 /// A scene with a note of its own: its sun is below the horizon.
 struct NightFolder : Folder {

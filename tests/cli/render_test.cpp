@@ -7,7 +7,6 @@
 #include <cmath>
 #include <string>
 #include <thread>
-#include <variant>
 #include <vector>
 
 #include "core/image_io.h"
@@ -17,11 +16,6 @@
 
 namespace obscura::test {
 namespace {
-
-template <class T>
-Image<T> pfm(const std::filesystem::path& file) {
-    return std::get<Image<T>>(decode_pfm(file_text(file), file.string()));
-}
 
 TEST(Render, WithoutFlagsThePictureIsNamedAfterTheScene) {
     const SceneFolder folder;

@@ -1,8 +1,9 @@
 #pragma once
-// A folder with the small scene, and pictures out of it.
+// A folder with the small scene, and pictures out of folders.
 
 #include <filesystem>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/image_io.h"
@@ -19,6 +20,11 @@ struct SceneFolder : Folder {
 
 inline Image<Rgba8> png(const std::filesystem::path& file) {
     return decode_png(file_text(file), file.string());
+}
+
+template <class T = float>
+Image<T> pfm(const std::filesystem::path& file) {
+    return std::get<Image<T>>(decode_pfm(file_text(file), file.string()));
 }
 
 }  // namespace obscura::test

@@ -4,16 +4,13 @@
 
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "core/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 
 namespace obscura::test {
 namespace {
-
-using Names = std::vector<std::string>;
 
 const std::string edits = R"([stereo]
 interaxial_m = 0.2
@@ -24,14 +21,6 @@ type = "roundness"
 objects = ["cube"]
 roundness = 2
 )";
-
-Image<Rgba8> png(const Folder& folder, const std::string& name) {
-    return decode_png(file_text(folder / name), name);
-}
-
-Image<float> pfm(const Folder& folder, const std::string& name) {
-    return std::get<Image<float>>(decode_pfm(file_text(folder / name), name));
-}
 
 bool same(const Image<Rgba8>& a, const Image<Rgba8>& b) {
     return a.width == b.width && a.height == b.height && a.pixels == b.pixels;
@@ -65,12 +54,12 @@ TEST_F(StereoCli, EveryLayoutHasItsSize) {
         const Outcome made = run({"s.toml", "-q", "--layout", layout, "-o", layout + ".png"});
         ASSERT_EQ(made.code, 0) << made.err;
         EXPECT_EQ(made.err + made.out, "") << layout;
-        const Image<Rgba8> picture = png(folder, layout + ".png");
+        const Image<Rgba8> picture = png(folder / (layout + ".png"));
         EXPECT_EQ(picture.width, size.first) << layout;
         EXPECT_EQ(picture.height, size.second) << layout;
     }
-    const Image<Rgba8> both = png(folder, "side-by-side.png"), crossed = png(folder, "cross-eye.png");
-    const Image<Rgba8> left = png(folder, "left.png"), right = png(folder, "right.png");
+    const Image<Rgba8> both = png(folder / "side-by-side.png"), crossed = png(folder / "cross-eye.png");
+    const Image<Rgba8> left = png(folder / "left.png"), right = png(folder / "right.png");
     EXPECT_FALSE(same(left, right));
     for (int y = 0; y < 48; ++y) {
         for (int x = 0; x < 64; ++x) {
@@ -81,8 +70,8 @@ TEST_F(StereoCli, EveryLayoutHasItsSize) {
     }
     const Outcome two = run({"s.toml", "-q", "--layout", "separate", "-o", "two.png"});
     ASSERT_EQ(two.code, 0) << two.err;
-    EXPECT_TRUE(same(png(folder, "two.left.png"), left));
-    EXPECT_TRUE(same(png(folder, "two.right.png"), right));
+    EXPECT_TRUE(same(png(folder / "two.left.png"), left));
+    EXPECT_TRUE(same(png(folder / "two.right.png"), right));
     EXPECT_FALSE(std::filesystem::exists(folder / "two.png"));
 }
 
@@ -92,7 +81,7 @@ TEST_F(StereoCli, EyesChangeOverWhereALayoutShowsBoth) {
         line.insert(line.end(), more.begin(), more.end());
         const Outcome made = run(line);
         EXPECT_EQ(made.code, 0) << made.err;
-        return png(folder, "p.png");
+        return png(folder / "p.png");
     };
     const Names swap{"--swap-eyes"};
     EXPECT_TRUE(same(picture("side-by-side", swap), picture("cross-eye")));
@@ -128,7 +117,7 @@ TEST_F(StereoCli, MapsAreWhatTheyAreCalled) {
         "m.conflicts.png", "m.left.occlusion.png", "m.left.pfm",  "m.left.png",   "m.right.occlusion.png",
         "m.right.pfm",     "m.right.png",          "m.scale.png", "s.toml"};
     EXPECT_EQ(folder.listing(), expected);
-    const Image<float> before = pfm(folder, "m.before.pfm"), after = pfm(folder, "m.after.pfm");
+    const Image<float> before = pfm(folder / "m.before.pfm"), after = pfm(folder / "m.after.pfm");
     EXPECT_GT(before.width, 64) << "with margins";
     EXPECT_EQ(before.height, 48);
     // f = 24 / tan(17.5 degrees) = 76.12 px, the screen is at 7 m. Nothing is seen in the corner, as if at
@@ -137,26 +126,26 @@ TEST_F(StereoCli, MapsAreWhatTheyAreCalled) {
     EXPECT_NEAR(before(before.width / 2, 24), 76.12 * 0.2 * (1 / 8.06 - 1 / 7.0), 0.15);
     EXPECT_EQ(after(0, 0), before(0, 0));
     EXPECT_NE(after.pixels, before.pixels);
-    EXPECT_EQ(pfm(folder, "m.left.pfm").width, 64);
-    EXPECT_EQ(png(folder, "m.conflicts.png").width, 64);
-    EXPECT_EQ(png(folder, "m.after.png").width, before.width);
+    EXPECT_EQ(pfm(folder / "m.left.pfm").width, 64);
+    EXPECT_EQ(png(folder / "m.conflicts.png").width, 64);
+    EXPECT_EQ(png(folder / "m.after.png").width, before.width);
 }
 
 TEST_F(StereoCli, ComparisonsAreLabelledByTheirNames) {
     const Outcome made =
         run({"s.toml", "-q", "-o", "a.png", "--layout", "left", "--compare", "warp,remap,unedited"});
     ASSERT_EQ(made.code, 0) << made.err;
-    const Image<Rgba8> edited = png(folder, "a.png");
+    const Image<Rgba8> edited = png(folder / "a.png");
     for (const char* name : {"a.warp.png", "a.remap.png", "a.unedited.png"}) {
-        EXPECT_EQ(png(folder, name).width, 64) << name;
-        EXPECT_FALSE(same(png(folder, name), edited)) << name;
+        EXPECT_EQ(png(folder / name).width, 64) << name;
+        EXPECT_FALSE(same(png(folder / name), edited)) << name;
     }
     // Without edits the pair is the unedited one.
     ASSERT_EQ(run({"s.toml", "-q", "-o", "b.png", "--layout", "left", "-D", "stereo.edit.round.weight=0",
                    "-D", "stereo.window_weight=0"})
                   .code,
               0);
-    EXPECT_TRUE(same(png(folder, "a.unedited.png"), png(folder, "b.png")));
+    EXPECT_TRUE(same(png(folder / "a.unedited.png"), png(folder / "b.png")));
 }
 
 TEST_F(StereoCli, ScenesWithoutStereoHaveDefaults) {
@@ -165,13 +154,13 @@ TEST_F(StereoCli, ScenesWithoutStereoHaveDefaults) {
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_NE(made.err.find("the screen stands where the camera looks, at 8.062 m"), std::string::npos)
         << made.err;
-    EXPECT_EQ(png(folder, "plain.stereo.png").width, 128);
+    EXPECT_EQ(png(folder / "plain.stereo.png").width, 128);
 }
 
 TEST_F(StereoCli, PreviewsAreSmall) {
     ASSERT_EQ(run({"s.toml", "-q", "--preview", "-o", "p.png"}).code, 0);
-    EXPECT_EQ(png(folder, "p.png").width, 32);
-    EXPECT_EQ(png(folder, "p.png").height, 12);
+    EXPECT_EQ(png(folder / "p.png").width, 32);
+    EXPECT_EQ(png(folder / "p.png").height, 12);
 }
 
 TEST_F(StereoCli, FramesHaveTheirNumbers) {
@@ -182,7 +171,7 @@ TEST_F(StereoCli, FramesHaveTheirNumbers) {
     EXPECT_EQ(nameless.code, 2);
     EXPECT_NE(nameless.err.find("several frames need ####"), std::string::npos) << nameless.err;
     ASSERT_EQ(run({"f.toml", "-q", "--frames", "1,3", "-o", "a##.png", "--stats-json", "s.json"}).code, 0);
-    EXPECT_FALSE(same(png(folder, "a01.png"), png(folder, "a03.png")));
+    EXPECT_FALSE(same(png(folder / "a01.png"), png(folder / "a03.png")));
     EXPECT_FALSE(std::filesystem::exists(folder / "a02.png"));
 }
 

@@ -4,17 +4,14 @@
 
 #include <cmath>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 #include "tests/report/json_reader.h"
 
 namespace obscura::test {
 namespace {
-
-using Names = std::vector<std::string>;
 
 /// A folder with the small scene in it, under a sun called "day" with these keys.
 struct SunnyFolder : Folder {
@@ -22,14 +19,6 @@ struct SunnyFolder : Folder {
         write("s.toml", std::string(small_scene) + "[[light]]\nid = \"day\"\ntype = \"sun\"\n" + keys);
     }
 };
-
-Image<Rgba8> png(const std::filesystem::path& file) {
-    return decode_png(file_text(file), file.string());
-}
-
-Image<float> pfm(const std::filesystem::path& file) {
-    return std::get<Image<float>>(decode_pfm(file_text(file), file.string()));
-}
 
 TEST(SunHoursOutside, AreNumbersAndAPictureWithItsScale) {
     const SunnyFolder folder(

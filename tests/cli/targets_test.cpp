@@ -6,13 +6,11 @@
 #include <vector>
 
 #include "core/image_io.h"
-#include "tests/cli/program.h"
+#include "tests/cli/scene_folder.h"
 #include "tests/report/json_reader.h"
 
 namespace obscura::test {
 namespace {
-
-using Names = std::vector<std::string>;
 
 /// A scene that reads a texture, a mesh with its materials, a lens's mask and an edit's, and keeps a map.
 struct ReadingScene : Folder {

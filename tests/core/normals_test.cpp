@@ -5,12 +5,10 @@
 #include <set>
 
 #include "core/topology.h"
+#include "tests/core/cube.h"
 
 namespace obscura {
 namespace {
-
-constexpr std::uint32_t cube_quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                            {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 
 /// Unit cube; `other_diagonals` cuts some sides the other way.
 Mesh cube(unsigned other_diagonals = 0) {

@@ -9,12 +9,10 @@
 #include <random>
 
 #include "core/edges.h"
+#include "tests/core/cube.h"
 
 namespace obscura {
 namespace {
-
-constexpr int cube_quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                  {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 
 /// Box [lo, hi] of 8 shared vertices (bit 0 = x, 1 = y, 2 = z), 12 triangles, seen counter-clockwise from
 /// outside.
@@ -24,9 +22,8 @@ Mesh box(Vec3f lo, Vec3f hi) {
         mesh.positions.push_back({i & 1 ? hi.x : lo.x, i & 2 ? hi.y : lo.y, i & 4 ? hi.z : lo.z});
     }
     for (const auto& q : cube_quads) {
-        const auto v = [&](int k) { return static_cast<std::uint32_t>(q[k]); };
-        mesh.triangles.push_back({{v(0), v(1), v(2)}});
-        mesh.triangles.push_back({{v(0), v(2), v(3)}});
+        mesh.triangles.push_back({{q[0], q[1], q[2]}});
+        mesh.triangles.push_back({{q[0], q[2], q[3]}});
     }
     return mesh;
 }

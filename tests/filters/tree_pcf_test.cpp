@@ -74,37 +74,37 @@ ChosenMap chosen_map(int size, std::uint32_t seed) {
     return m;
 }
 
-class TreePcf : public testing::TestWithParam<int> {};
+/// Side of the map, and of the kernel.
+class TreePcf : public testing::TestWithParam<std::tuple<int, int>> {};
 
 TEST_P(TreePcf, EqualsTheDenseMapAtEveryAlignmentAndBorder) {
-    const int side = GetParam();
-    for (const int size : {4, 32}) {
-        const ChosenMap m = chosen_map(size, 7);
-        for (const bool parallel : {true, false}) {
-            for (const float tilt : {0.0f, 0.02f}) {
-                const std::vector<SurfaceBlock> blocks =
-                    chosen::blocks_at(chosen::places_everywhere(size, 3), tilt, 4);
-                PcfLight dense = chosen::light_above(size, side, parallel), light = dense;
-                for (const CodeCase& row : code_cases) {
-                    ShadowTree tree = encode_tree(m.tree, {}, params_of(row));
-                    const StoredDepths map = dense_map(tree_behind(tree, m.tree), size);
-                    dense.view[0].stored = map.depth.data();
-                    const Visibility expected = by_map(blocks, dense);
-                    if (side > 1 && size > 4) {
-                        EXPECT_GT(between_light_and_dark(expected), 20);
-                    }
-                    for (const int top : {0, 2}) {
-                        set_top_grid(tree, top);
-                        light.view[0].tree = &tree.code;
-                        expect_all(blocks, light, expected, row.name);
-                    }
+    const auto [size, side] = GetParam();
+    const ChosenMap m = chosen_map(size, 7);
+    for (const bool parallel : {true, false}) {
+        for (const float tilt : {0.0f, 0.02f}) {
+            const std::vector<SurfaceBlock> blocks =
+                chosen::blocks_at(chosen::places_everywhere(size, 3), tilt, 4);
+            PcfLight dense = chosen::light_above(size, side, parallel), light = dense;
+            for (const CodeCase& row : code_cases) {
+                ShadowTree tree = encode_tree(m.tree, {}, params_of(row));
+                const StoredDepths map = dense_map(tree_behind(tree, m.tree), size);
+                dense.view[0].stored = map.depth.data();
+                const Visibility expected = by_map(blocks, dense);
+                if (side > 1 && size > 4) {
+                    EXPECT_GT(between_light_and_dark(expected), 20);
+                }
+                for (const int top : {0, 2}) {
+                    set_top_grid(tree, top);
+                    light.view[0].tree = &tree.code;
+                    expect_all(blocks, light, expected, row.name);
                 }
             }
         }
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(DenseKernels, TreePcf, testing::Values(1, 3, 5));
+INSTANTIATE_TEST_SUITE_P(DenseKernels, TreePcf,
+                         testing::Combine(testing::Values(4, 32), testing::Values(1, 3, 5)));
 
 class TreePcfKernels : public testing::TestWithParam<int> {};
 
