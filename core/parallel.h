@@ -2,6 +2,7 @@
 // Fixed tiles on many threads. Work items write to disjoint places and learn nothing about threads, so
 // no result can depend on how many there are. Reductions: write one partial per item, sum in index order.
 
+#include <atomic>
 #include <cstddef>
 #include <type_traits>
 
@@ -23,6 +24,11 @@ void parallel_for(std::size_t count, const Exec& exec, Fn&& fn) {
     parallel_for_raw(
         count, exec, [](void* context, std::size_t i) { (*static_cast<F*>(context))(i); },
         const_cast<void*>(static_cast<const void*>(&fn)));
+}
+
+/// Whether whoever gave `cancel` (null: nobody) has set it.
+inline bool stopped(const std::atomic<bool>* cancel) {
+    return cancel != nullptr && cancel->load(std::memory_order_relaxed);
 }
 
 /// Cuts [0, count) into blocks of `block` items and calls fn(begin, end) for each.

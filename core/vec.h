@@ -115,6 +115,11 @@ constexpr double determinant(const Affine& a) {
            a.m[0][2] * (a.m[1][0] * a.m[2][1] - a.m[1][1] * a.m[2][0]);
 }
 
+/// One row of an affine map, summed by pairs.
+constexpr double row_at(const double (&row)[4], Vec3d p) {
+    return (row[0] * p.x + row[1] * p.y) + (row[2] * p.z + row[3]);
+}
+
 /// 4 x 4 map in double, row-major, for homogeneous points.
 struct Mat4 {
     double m[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};

@@ -20,20 +20,7 @@ int height_of(std::uint64_t code) {
     return static_cast<int>(code >> 1 & 31u);
 }
 
-std::uint64_t spread(std::uint32_t v) {
-    std::uint64_t b = v;
-    b = (b | b << 16) & 0x0000ffff0000ffffull;
-    b = (b | b << 8) & 0x00ff00ff00ff00ffull;
-    b = (b | b << 4) & 0x0f0f0f0f0f0f0f0full;
-    b = (b | b << 2) & 0x3333333333333333ull;
-    return (b | b << 1) & 0x5555555555555555ull;
-}
-
 }  // namespace
-
-std::uint64_t morton_code(std::uint32_t x, std::uint32_t y) {
-    return spread(x) | spread(y) << 1;
-}
 
 void NeededNodes::add(std::uint64_t morton, int level) {
     codes_.push_back(code_of(morton, level, level == 0));

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "core/morton.h"
+
 namespace obscura {
 
 /// Squares of a map whose values will be asked for: at level 0 texels, at level l squares of 2^l texels whose
@@ -36,8 +38,5 @@ class NeededNodes {
   private:
     std::vector<std::uint64_t> codes_;
 };
-
-/// Interleaves bits: x in the even places.
-std::uint64_t morton_code(std::uint32_t x, std::uint32_t y);
 
 }  // namespace obscura

@@ -27,10 +27,6 @@ void store_tile(const DepthInterval* interval, const TileRect& tile, StoredDepth
     }
 }
 
-bool stopped(const std::atomic<bool>* cancel) {
-    return cancel != nullptr && cancel->load(std::memory_order_relaxed);
-}
-
 void render_view(const Mesh& mesh, const LightView& view, Receivers receivers, const Exec& exec,
                  RasterScratch& scratch, const std::atomic<bool>* cancel, StoredDepths& stored) {
     CHECK(view.width == view.height && view.width % 4 == 0);

@@ -9,11 +9,13 @@
 #include "app/cli/flags.h"
 #include "app/cli/messages.h"
 #include "app/cli/scene_flags.h"
+#include "app/frame/channels.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
 #include "app/frame/scene_light.h"
 #include "app/frame/shadow_memory.h"
+#include "app/frame/shadow_method.h"
 #include "app/frame/shadow_text.h"
 #include "app/frame/shadows.h"
 #include "app/frame/soft_light.h"
@@ -194,11 +196,11 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     return out;
 }
 
-/// What the scene's own files need that takes work of its own.
+/// What the scene's own files need.
 FrameOptions channels_of(const std::vector<Output>& outputs) {
     FrameOptions channels;
     for (const Output& output : outputs)
-        channels.sun_hours |= output.aov == Aov::sun_hours;
+        want_channel(output.aov, channels);
     return channels;
 }
 
@@ -226,9 +228,7 @@ std::string hours_text(const Scene& scene) {
 std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const Exec& exec) {
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const SceneLight& light) {
-        const bool maps =
-            light.shadow.method == ShadowMethod::compressed || light.shadow.method == ShadowMethod::stack;
-        return casts_shadows(light) && maps && light.shadow.resolution == auto_resolution;
+        return casts_shadows(light) && wants_auto(light);
     });
     if (!any || scene.mesh.triangles.empty()) return found;
     FrameCache cache;
@@ -279,7 +279,9 @@ std::string check_report(const CheckOptions& options) {
     // Before resolutions are found, as rendering tells it.
     const FrameOptions channels = channels_of(scene.outputs);
     const MemoryEstimate memory =
-        estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = channels});
+                             estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = channels}),
+                         of_views = estimate_memory(scene);
+    check_memory(memory, scene.limits, "the frame");
     const auto found = find_resolutions(scene, Exec{});
     const auto lights = subtables(document.root, "light");
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
@@ -300,8 +302,10 @@ std::string check_report(const CheckOptions& options) {
         const StereoSettings settings =
             stereo_settings(document, scene, scene_frames(document).first, access);
         out += stereo_text(settings, scene);
-        MemoryEstimate pair = memory;
+        // A pair writes views, none of the files that a picture has.
+        MemoryEstimate pair = of_views;
         pair.frame += stereo_bytes(scene, settings);
+        check_memory(pair, scene.limits, document.sources[0]);
         needs += memory_text("a pair: ", pair, scene);
     }
     return out + mesh_text(scene) + needs + "ok\n";

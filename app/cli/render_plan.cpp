@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/frame/channels.h"
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
@@ -14,18 +15,6 @@ bool has_sun(const SceneDocument& document) {
     const auto lights = subtables(document.root, "light");
     return std::any_of(lights.begin(), lights.end(),
                        [](const SceneTable* light) { return light_kind_of(*light).kind == LightKind::sun; });
-}
-
-/// The channels that the files need.
-void request_channels(const std::vector<PlannedOutput>& outputs, FrameOptions& options) {
-    for (const PlannedOutput& output : outputs) {
-        options.depth |= output.aov == Aov::depth;
-        options.normal |= output.aov == Aov::normal;
-        options.albedo |= output.aov == Aov::albedo;
-        options.object |= output.aov == Aov::object;
-        options.shadow |= output.aov == Aov::shadow;
-        options.sun_hours |= output.aov == Aov::sun_hours;
-    }
 }
 
 }  // namespace
@@ -42,7 +31,8 @@ RenderPlan plan_render(const RenderOptions& options) {
         plan_outputs({options.output, options.aovs, options.aov_kind, options.run.scene.stem().string(),
                       plan.frames.size() > 1, scene_frames(plan.document).count() > 1},
                      outputs_of(plan.document));
-    request_channels(plan.outputs, plan.frame_options);
+    for (const PlannedOutput& output : plan.outputs)
+        want_channel(output.aov, plan.frame_options);
     if (plan.frame_options.sun_hours && !has_sun(plan.document))
         throw UsageError("--aov sun_hours: the scene has no light of type \"sun\"");
     return plan;

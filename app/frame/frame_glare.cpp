@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/frame/channels.h"
 #include "app/frame/memory.h"
 
 namespace obscura {
@@ -50,12 +51,9 @@ void crop_frame(const Region& crop, Frame& frame) {
     if (crop.width == frame.width && crop.height == frame.height) return;
     const Region part{crop.x0 - frame.x0, crop.y0 - frame.y0, crop.width, crop.height};
     crop_channel(part, frame.radiance);
-    crop_channel(part, frame.depth_m);
-    crop_channel(part, frame.normal);
-    crop_channel(part, frame.albedo);
-    crop_channel(part, frame.object);
-    crop_channel(part, frame.shift_px);
-    crop_channel(part, frame.shadow);
+    for_each_channel([&](const auto& row) {
+        if (row.by_tiles) crop_channel(part, frame.*row.pixels);
+    });
     frame.x0 = crop.x0;
     frame.y0 = crop.y0;
     frame.width = crop.width;

@@ -42,14 +42,4 @@ bool same_shadow(const SceneLight& a, const SceneLight& b);
 bool same_picture(const LightShadow& shadow, const Camera& camera, const RenderSettings& render,
                   const Region& seen);
 
-/// Builds and serialises the trees of shadow.light (its resolution a number), of which `needed` says what of
-/// each view is wanted (null: everything). Fills shadow.trees and its statistics. `most_bytes`: what trees
-/// may take while they are made; construction stops with LimitError before it takes more. False when `cancel`
-/// was set meanwhile: there are then no trees.
-bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed, const Exec& exec,
-                       std::int64_t most_bytes, LightShadow& shadow, const std::atomic<bool>* cancel);
-
-/// Counts and bytes of shadow.trees into its statistics.
-void count_trees(LightShadow& shadow);
-
 }  // namespace obscura

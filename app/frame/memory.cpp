@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/frame/channels.h"
 #include "app/frame/shadow_memory.h"
 #include "app/frame/sun_hours.h"
 #include "app/frame/tile.h"
@@ -26,11 +27,10 @@ namespace {
 /// Tiles resolve their samples at once: a pixel keeps its radiance and channels, and its codes while they are
 /// encoded (raw, filtered, compressed).
 std::int64_t picture_bytes(const RenderSettings& render, const FrameOptions& wanted) {
-    constexpr std::int64_t code_bytes = 12, number = sizeof(float), vector = sizeof(Vec3f);
-    const std::int64_t pixel = vector + code_bytes + (wanted.depth ? number : 0) +
-                               (wanted.normal ? vector : 0) + (wanted.albedo ? vector : 0) +
-                               (wanted.object ? number : 0) + (wanted.shadow ? number : 0) +
-                               (wanted.shift ? number : 0) + (wanted.sun_hours ? number : 0);
+    constexpr std::int64_t code_bytes = 12;
+    std::int64_t pixel = sizeof(Vec3f) + code_bytes;
+    for_each_channel(
+        [&]<class T>(const FrameChannel<T>& row) { pixel += wanted.*row.wanted ? sizeof(T) : 0; });
     return std::int64_t{render.width} * render.height * pixel;
 }
 
@@ -52,10 +52,6 @@ std::int64_t prepared_bytes(const MeshSize& mesh, const RenderSettings& render) 
 /// or fewer as threads take turns: measured (5 to 15 %), not derived.
 std::int64_t allocator_bytes(std::int64_t held) {
     return (std::int64_t{4} << 20) + held / 6;
-}
-
-double mib(std::int64_t bytes) {
-    return static_cast<double>(bytes) / (1 << 20);
 }
 
 /// Suns that hours of sun are counted of, with or without sun; none: not wanted.

@@ -49,7 +49,7 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
 Frame render_frame(const Scene& scene, const FrameOptions& options = {}, const Exec& exec = {});
 
 // The steps that come before the tiles, for traces, tests and lessons: these two, then prepare_shadows()
-// (app/frame_shadows.h), which gives the lights their shadows.
+// (app/frame/shadows.h), which gives the lights their shadows.
 
 /// Fills the cache's tables of surface triangles. Adds to `stats`.
 void prepare_scene(const Scene& scene, const Exec& exec, FrameCache& cache, FrameStats& stats);

@@ -21,10 +21,6 @@
 namespace obscura {
 namespace {
 
-bool builds_parts(const ShadowSettings& shadow) {
-    return shadow.method == ShadowMethod::compressed && shadow.scope == ShadowScope::frame;
-}
-
 bool any_exact(std::span<const SceneLight> lights) {
     return std::any_of(lights.begin(), lights.end(),
                        [](const SceneLight& light) { return light.shadow.method == ShadowMethod::exact; });
@@ -60,10 +56,10 @@ std::int64_t expected_nodes(const ShadowSettings& shadow) {
 std::int64_t built_nodes(const SceneLight& light, const RenderSettings& render) {
     const ShadowSettings& s = light.shadow;
     const std::int64_t maps = shadow_map_count(light), all = maps * expected_nodes(s);
-    const std::int64_t squares = builds_parts(s) ? expected_squares(s, maps, render) : 0;
+    const std::int64_t squares = is_of_one_picture(s) ? expected_squares(s, maps, render) : 0;
     // A light whose collection is given up has all of its map built. Else nodes follow the outlines that the
     // picture shows: 200 to 4000 per side of its samples were measured, most where there are leaves.
-    if (!builds_parts(s) || squares >= most_needed_squares) return all;
+    if (!is_of_one_picture(s) || squares >= most_needed_squares) return all;
     const double side = std::sqrt(static_cast<double>(render.width) * render.height * render.samples);
     const std::int64_t seen = maps == 0 ? 0 : std::min(static_cast<std::int64_t>(250 * side), 2 * squares);
     return s.resolution == auto_resolution ? seen : std::min(all, seen);
@@ -167,7 +163,7 @@ std::int64_t shadow_map_bytes(const SceneLight& light) {
 }
 
 std::int64_t built_map_bytes(const SceneLight& light, const RenderSettings& render) {
-    if (!builds_parts(light.shadow)) return shadow_map_bytes(light);
+    if (!is_of_one_picture(light.shadow)) return shadow_map_bytes(light);
     return built_nodes(light, render) * node_bytes + top_bytes(light);
 }
 
@@ -196,7 +192,7 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
         const ShadowSettings& s = light.shadow;
         if (s.method != ShadowMethod::compressed) continue;
         const std::int64_t squares =
-            builds_parts(s) ? expected_squares(s, shadow_map_count(light), render) : 0;
+            is_of_one_picture(s) ? expected_squares(s, shadow_map_count(light), render) : 0;
         lists += squares * (word_bytes + code_bytes);
         most = std::max(most, squares);
         // One view's tree at a time.

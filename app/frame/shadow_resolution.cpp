@@ -21,10 +21,6 @@ Vec3d row_axis(const double (&m)[4]) {
     return {m[0], m[1], m[2]};
 }
 
-double row(const double (&m)[4], Vec3d p) {
-    return (m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3]);
-}
-
 /// The least singular value of the matrix with columns (ax, ay) and (bx, by).
 double least_singular_value(double ax, double ay, double bx, double by) {
     const double det = std::fabs(ax * by - ay * bx), square = ax * ax + ay * ay + bx * bx + by * by;
@@ -150,11 +146,11 @@ double footprint_texels(const CameraRays& rays, const PcfView& view, const Surfa
         surface_steps(rays, n, static_cast<double>(view_distance(rays, s.depth[at])), x, y);
     if (steps.edge_on) return 0;
     // X = (row 0 . p) / w, so dX = (row 0 - X row 3) . dp / w, and the same for Y.
-    const double w = view.perspective ? row(view.to_map[3], p) : 1.0;
+    const double w = view.perspective ? row_at(view.to_map[3], p) : 1.0;
     Vec3d across = row_axis(view.to_map[0]), down = row_axis(view.to_map[1]);
     if (view.perspective) {
-        across = across - row_axis(view.to_map[3]) * (row(view.to_map[0], p) / w);
-        down = down - row_axis(view.to_map[3]) * (row(view.to_map[1], p) / w);
+        across = across - row_axis(view.to_map[3]) * (row_at(view.to_map[0], p) / w);
+        down = down - row_axis(view.to_map[3]) * (row_at(view.to_map[1], p) / w);
     }
     const double scale = 1.0 / w;
     return least_singular_value(dot(across, steps.right) * scale, dot(down, steps.right) * scale,

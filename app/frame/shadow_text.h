@@ -22,6 +22,9 @@ std::string capped_text(const SceneLight& light, const FoundResolution& found);
 /// What would make a tree of these settings smaller: the advice of the error when memory does not suffice.
 std::string smaller_tree_text(const ShadowSettings& shadow);
 
+/// "6 maps of 1024 x 1024 (auto: ...), EXTENT, 24.0 MiB, kept"; `extent`: from the comma on.
+std::string maps_text(const LightShadowStats& stats, const std::string& extent = "");
+
 /// What `render -v` tells of one light: some indented lines.
 std::string shadow_text(const LightShadowStats& stats);
 

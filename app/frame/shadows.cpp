@@ -5,42 +5,17 @@
 #include <algorithm>
 
 #include "app/frame/memory.h"
-#include "app/frame/needed_texels.h"
-#include "app/frame/scene_light.h"
-#include "app/frame/shadow_cache.h"
-#include "app/frame/shadow_memory.h"
-#include "app/frame/shadow_resolution.h"
+#include "app/frame/shadow_method.h"
 #include "app/frame/shadow_text.h"
-#include "app/frame/stack_shadow.h"
-#include "core/file_output.h"
+#include "app/frame/sky_light.h"
+#include "app/frame/soft_light.h"
+#include "app/frame/tree_shadow.h"
 #include "core/stopwatch.h"
-#include "filters/shadow_lookup.h"
 #include "raster/light_samples.h"
 #include "raster/lighting.h"
 
 namespace obscura {
 namespace {
-
-/// Everything the steps below share.
-struct Work {
-    const Scene& scene;
-    std::int64_t most_bytes;  ///< for all shadows together
-    const Exec& exec;
-    FrameCache& cache;
-    std::span<TileScene> pictures;
-    FrameStats& stats;
-    const std::atomic<bool>* cancel;
-};
-
-bool wants_auto(const SceneLight& light) {
-    const ShadowMethod method = light.shadow.method;
-    return (method == ShadowMethod::compressed || method == ShadowMethod::stack) &&
-           light.shadow.resolution == auto_resolution;
-}
-
-Bounds casters_of(const Scene& scene, const Light& light) {
-    return is_parallel(light.kind) ? caster_box(scene.mesh, light.direction) : Bounds{};
-}
 
 LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundResolution>& found) {
     LightShadowStats stats;
@@ -57,73 +32,8 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
     return stats;
 }
 
-/// Reads the shadow from its file. False when there is none that serves; a notice says why. A file with the
-/// right key that holds something else than trees of these views is damaged, too.
-bool load(const Work& work, const std::filesystem::path& file, const TreeFileKey& key,
-          const std::vector<LightView>& views, LightShadow& shadow) {
-    std::string notice;
-    shadow.trees = load_shadow_cache(file, key, notice);
-    const auto serves = [](const ShadowTree& tree, const LightView& view) { return tree.view == view; };
-    if (!shadow.trees.empty() &&
-        !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {
-        shadow.trees.clear();
-        notice = fmt::format(
-            "{} is damaged (it holds shadow trees of other views than its key says); it is made again",
-            file.string());
-    }
-    if (!notice.empty()) work.stats.notices.push_back(notice);
-    if (shadow.trees.empty()) return false;
-    count_trees(shadow);
-    shadow.stats.from_cache = true;
-    return true;
-}
-
-bool build_trees(const Work& work, const std::vector<NeededNodes>* needed, std::int64_t most_bytes,
-                 LightShadow& shadow) {
-    const SceneLight& light = shadow.light;
-    if (light.shadow.cache.empty() || light.shadow.scope != ShadowScope::full) {
-        return build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel);
-    }
-    const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
-    const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
-    if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
-    const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
-    const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
-    if (load(work, file, key, views, shadow)) return true;
-    check_shadow_cache(file);
-    if (!build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel)) return false;
-    save_shadow_cache(file, shadow.trees, key);
-    return true;
-}
-
-bool build_map(const Work& work, LightShadow& shadow) {
-    FrameCache& cache = work.cache;
-    const Stopwatch watch;
-    if (!build_shadow_map(work.scene.mesh, shadow.light, cache.bounds, work.exec, cache.light_scratch,
-                          shadow.map, work.cancel)) {
-        return false;
-    }
-    shadow.stats.bytes =
-        static_cast<std::uint64_t>(dense_map_bytes(shadow.light.light.kind, shadow.light.shadow.resolution));
-    shadow.stats.build.build_s = watch.seconds();
-    return true;
-}
-
-bool build_exact(const Work& work, LightShadow& shadow) {
-    const Stopwatch watch;
-    shadow.exact =
-        build_casters(work.scene.mesh, shadow.light.light, work.exec, work.cache.caster_scratch, work.cancel);
-    if (shadow.exact.empty()) return false;
-    for (const Casters& view : shadow.exact) {
-        shadow.stats.casters += static_cast<std::int64_t>(view.count);
-        shadow.stats.bytes += static_cast<std::uint64_t>(view.bytes());
-    }
-    shadow.stats.build.build_s = watch.seconds();
-    return true;
-}
-
 /// Refuses resolutions that make the frame too large, before anything is built.
-void check_found(const Work& work, const std::vector<std::optional<FoundResolution>>& found) {
+void check_found(const ShadowWork& work, const std::vector<std::optional<FoundResolution>>& found) {
     std::vector<SceneLight> lights = work.scene.lights;
     if (settle_resolutions(found, lights))
         check_memory(estimate_memory(work.scene, {.lights = lights, .bright_px = {}, .channels = {}}),
@@ -137,7 +47,7 @@ bool has_other_receivers(const Scene& scene) {
 }
 
 /// Settles what each light's shadow shall be; those that an earlier frame made are marked kept.
-void plan_shadows(const Work& work) {
+void plan_shadows(const ShadowWork& work) {
     const auto found = auto_resolutions(work.scene, work.pictures, work.exec);
     check_found(work, found);
     std::vector<LightShadow>& shadows = work.cache.shadows;
@@ -157,10 +67,9 @@ void plan_shadows(const Work& work) {
             work.stats.notices.push_back(capped_text(light, *found[i]));
         }
         const LightShadowStats fresh = fresh_stats(light, found[i]);
-        const bool every_picture =
-            light.shadow.method != ShadowMethod::compressed || light.shadow.scope == ShadowScope::full;
         const bool kept = !shadow.empty() && same_shadow(shadow.light, light) &&
-                          (every_picture || same_picture(shadow, work.scene.camera, work.scene.render, seen));
+                          (!is_of_one_picture(light.shadow) ||
+                           same_picture(shadow, work.scene.camera, work.scene.render, seen));
         if (kept) {
             shadow.stats.kept = true;
             shadow.stats.found = found[i];
@@ -185,55 +94,17 @@ void plan_shadows(const Work& work) {
     shadows.resize(used);
 }
 
-/// What the picture reads of those shadows that are built for it alone, in their order.
-std::vector<std::optional<std::vector<NeededNodes>>> needed_of_frame(const Work& work) {
-    std::vector<PcfLight> lights;
-    for (const LightShadow& s : work.cache.shadows) {
-        if (s.stats.kept || s.light.shadow.method != ShadowMethod::compressed ||
-            s.light.shadow.scope != ShadowScope::frame) {
-            continue;
-        }
-        const auto views = fitted_shadow_views(s.light, s.casters, s.light.shadow.resolution);
-        lights.push_back(pcf_light(s.light, views, work.scene.camera.eye));
-        if (s.light.shadow.filter == ShadowFilter::hierarchical) {
-            filter_hierarchically(lights.back(), work.pictures[0].rays);
-        }
-    }
-    if (lights.empty()) return {};
-    return needed_texels(work.pictures, lights, work.exec);
-}
-
-/// Makes one shadow that is not kept. `next_needed`: the next entry of `needed` that belongs to a shadow.
-bool build_shadow(const Work& work, const std::vector<std::optional<std::vector<NeededNodes>>>& needed,
-                  std::size_t& next_needed, std::int64_t most_bytes, LightShadow& shadow) {
-    if (shadow.light.shadow.method == ShadowMethod::map) return build_map(work, shadow);
-    if (shadow.light.shadow.method == ShadowMethod::exact) return build_exact(work, shadow);
-    if (shadow.light.shadow.method == ShadowMethod::stack)
-        return make_light_stack(work.scene.mesh, work.exec, most_bytes, work.cache, work.stats.notices,
-                                shadow, work.cancel);
-    if (shadow.light.shadow.scope == ShadowScope::full) return build_trees(work, nullptr, most_bytes, shadow);
-    const auto& of_light = needed[next_needed++];
-    if (!of_light) {
-        shadow.stats.scope = ShadowScope::full;
-        work.stats.notices.push_back(
-            fmt::format("light '{}': the picture reads so much of the shadow map that all of it is built",
-                        shadow.light.light.id));
-        return build_trees(work, nullptr, most_bytes, shadow);
-    }
-    for (const NeededNodes& view : *of_light)
-        shadow.stats.needed += static_cast<std::int64_t>(view.all().size());
-    return build_trees(work, &*of_light, most_bytes, shadow);
-}
-
-bool build_shadows(const Work& work) {
+bool build_shadows(const ShadowWork& work) {
     const Stopwatch watch;
-    const auto needed = needed_of_frame(work);
+    const std::vector<TreeNeeds> needs = tree_needs(work);
     work.stats.needed_s = watch.seconds();
-    std::size_t next_needed = 0;
+    std::size_t next = 0;
     std::int64_t bytes = 0;
     for (LightShadow& shadow : work.cache.shadows) {
         if (!shadow.stats.kept) {
-            if (!build_shadow(work, needed, next_needed, work.most_bytes - bytes, shadow)) {
+            const TreeNeeds* of_tree = is_of_one_picture(shadow.light.shadow) ? &needs[next++] : nullptr;
+            const ShadowMethodRow& row = row_of(shadow.light.shadow.method);
+            if (!row.make(work, of_tree, work.most_bytes - bytes, shadow)) {
                 shadow = {};
                 return false;
             }
@@ -245,34 +116,19 @@ bool build_shadows(const Work& work) {
     return true;
 }
 
-void give_to_tiles(const Work& work, TileScene& tiles) {
+void give_to_tiles(const ShadowWork& work, TileScene& tiles) {
     std::size_t next = 0;
     for (TileLight& light : tiles.lights) {
         if (!casts_shadows(work.scene.lights[light.scene_light])) continue;
         light.shadow = next;
         const LightShadow& shadow = work.cache.shadows[next++];
-        if (shadow.light.shadow.method == ShadowMethod::exact) {
-            light.exact = exact_light(shadow.light.light, shadow.exact, *tiles.mesh, tiles.rays);
-            continue;
-        }
-        if (shadow.light.shadow.method == ShadowMethod::stack) {
-            light.stack = stack_light(shadow, work.scene.camera.eye);
-            continue;
-        }
-        if (shadow.light.shadow.method == ShadowMethod::map) {
-            light.pcf = pcf_light(shadow.light, shadow.map, work.scene.camera.eye);
-            continue;
-        }
-        light.pcf = pcf_light(shadow.light, std::span(shadow.trees), work.scene.camera.eye);
-        if (shadow.light.shadow.filter == ShadowFilter::hierarchical) {
-            filter_hierarchically(*light.pcf, tiles.rays);
-        }
+        row_of(shadow.light.shadow.method).give(work, shadow, tiles, light);
     }
 }
 
 /// Finds how many points of each soft light the pictures ask, and takes those that are asked for more than
 /// one out of the tiles' lights.
-void settle_soft_lights(const Work& work) {
+void settle_soft_lights(const ShadowWork& work) {
     for (std::size_t i = 0; i < work.cache.shadows.size(); ++i) {
         LightShadow& shadow = work.cache.shadows[i];
         if (!is_soft(shadow.light)) continue;
@@ -294,43 +150,6 @@ void settle_soft_lights(const Work& work) {
             tiles.lights.erase(at);
         }
     }
-}
-
-/// What surfaces send on. False when cancelled.
-bool give_sent_light(const Scene& scene, const Exec& exec, FrameCache& cache, std::span<TileScene> pictures,
-                     const std::atomic<bool>* cancel) {
-    const bool kept = cache.sent && cache.sent->sky == scene.sky && cache.sent->lights == scene.lights &&
-                      cache.sent->materials == scene.materials;
-    if (!kept) {
-        cache.sent = {surface_light(scene, *cache.sky, exec, cancel), scene.lights, scene.materials,
-                      scene.sky};
-        if (cache.sent->light.empty()) {
-            cache.sent.reset();
-            return false;
-        }
-    }
-    for (TileScene& tiles : pictures)
-        tiles.sent = &cache.sent->light;
-    return true;
-}
-
-/// The sky that the pictures show and are lit by. False when cancelled.
-bool give_sky(const Scene& scene, const Exec& exec, FrameCache& cache, std::span<TileScene> pictures,
-              const std::atomic<bool>* cancel) {
-    const Sky& sky = scene.sky;
-    if (sky.kind == SkyKind::gradient && !sky.occlusion) return true;
-    if (!cache.sky || cache.sky->sky != sky) cache.sky = frame_sky(sky, exec);
-    const bool lights = !cache.sky->lights.empty() && !scene.mesh.triangles.empty();
-    for (TileScene& tiles : pictures) {
-        tiles.sky = cache.sky->shade;
-        tiles.sky_model = cache.sky->model ? &*cache.sky->model : nullptr;
-        if (!lights) continue;
-        SoftLight& soft = tiles.soft.emplace_back();
-        soft.is_sky = true;
-        soft.points = cache.sky->lights;
-        soft.solid_angle_sr = cache.sky->solid_angle_sr;
-    }
-    return !lights || sky.bounces == 0 || give_sent_light(scene, exec, cache, pictures, cancel);
 }
 
 }  // namespace
@@ -356,11 +175,7 @@ std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
     std::vector<ResolutionQuery> queries;
     for (const SceneLight& light : scene.lights) {
         if (!casts_shadows(light) || !wants_auto(light)) continue;
-        if (light.shadow.method == ShadowMethod::stack) {
-            queries.push_back(stack_query(scene.mesh, light));
-        } else {
-            queries.push_back(tree_query(light, casters_of(scene, light.light)));
-        }
+        queries.push_back(row_of(light.shadow.method).query(scene, light));
     }
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     if (queries.empty()) return found;
@@ -378,8 +193,8 @@ bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& e
     if (!give_sky(scene, exec, cache, pictures, cancel)) return false;
     // A scene without geometry has nothing to cast or to receive.
     if (cache.bounds.empty()) return true;
-    const Work work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats,
-                    cancel};
+    const ShadowWork work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats,
+                          cancel};
     plan_shadows(work);
     stats.resolution_s = watch.seconds();
     if (!build_shadows(work)) return false;
@@ -391,10 +206,8 @@ bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& e
 }
 
 void forget_picture_shadows(FrameCache& cache) {
-    for (LightShadow& shadow : cache.shadows) {
-        const ShadowSettings& s = shadow.light.shadow;
-        if (s.method == ShadowMethod::compressed && s.scope == ShadowScope::frame) shadow.trees.clear();
-    }
+    for (LightShadow& shadow : cache.shadows)
+        if (is_of_one_picture(shadow.light.shadow)) shadow.trees.clear();
 }
 
 }  // namespace obscura

@@ -8,10 +8,12 @@
 #include <limits>
 #include <optional>
 
-#include "app/frame/render_frame.h"
 #include "app/frame/shadow_cache.h"
+#include "app/frame/shadow_text.h"
+#include "app/frame/stack_tile.h"
 #include "core/error.h"
 #include "core/num.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "raster/light_samples.h"
 #include "raster/view.h"
@@ -221,7 +223,7 @@ bool build_light_stack(const Mesh& mesh, const FocusedViews& views, const Exec& 
             shadow.light.light.id, views.slices.size(), views.resolution, views.resolution, error.what(),
             most_bytes >> 20));
     }
-    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) {
+    if (stopped(cancel)) {
         shadow.stack.reset();
         return false;
     }
@@ -245,23 +247,48 @@ std::string read_light_stack(const std::filesystem::path& file, const TreeFileKe
     return notice;
 }
 
-bool make_light_stack(const Mesh& mesh, const Exec& exec, std::int64_t most_bytes, FrameCache& cache,
-                      std::vector<std::string>& notices, LightShadow& shadow,
-                      const std::atomic<bool>* cancel) {
+ResolutionQuery stack_resolution(const Scene& scene, const SceneLight& light) {
+    return stack_query(scene.mesh, light);
+}
+
+bool make_stack_shadow(const ShadowWork& work, const TreeNeeds*, std::int64_t most_bytes,
+                       LightShadow& shadow) {
     const SceneLight& light = shadow.light;
+    const Mesh& mesh = work.scene.mesh;
     const FocusedViews views = stack_views(mesh, plan_stack(mesh, light), light.shadow.resolution);
-    if (light.shadow.cache.empty()) return build_light_stack(mesh, views, exec, most_bytes, shadow, cancel);
-    const auto folder = shadow_cache_folder(cache.access, light.shadow.cache);
+    const auto build = [&] {
+        return build_light_stack(mesh, views, work.exec, most_bytes, shadow, work.cancel);
+    };
+    if (light.shadow.cache.empty()) return build();
+    const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
     const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
-    if (!cache.geometry) cache.geometry = geometry_key(mesh);
-    const TreeFileKey key = shadow_key(*cache.geometry, light, views);
+    if (!work.cache.geometry) work.cache.geometry = geometry_key(mesh);
+    const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
     const std::string notice = read_light_stack(file, key, views, shadow);
-    if (!notice.empty()) notices.push_back(notice);
+    if (!notice.empty()) work.stats.notices.push_back(notice);
     if (shadow.stack) return true;
     check_shadow_cache(file);
-    if (!build_light_stack(mesh, views, exec, most_bytes, shadow, cancel)) return false;
+    if (!build()) return false;
     save_shadow_cache(file, *shadow.stack, key);
     return true;
+}
+
+void give_stack_shadow(const ShadowWork& work, const LightShadow& shadow, const TileScene&,
+                       TileLight& light) {
+    light.stack = stack_light(shadow, work.scene.camera.eye);
+}
+
+std::string stack_shadow_text(const LightShadowStats& s) {
+    std::string out = fmt::format("a stack of {} maps of {} x {}", s.samples, s.resolution, s.resolution);
+    if (s.found) out += " (" + resolution_text(*s.found) + ")";
+    out += fmt::format(", {}{}\n", size_text(static_cast<std::int64_t>(s.bytes)),
+                       s.kept         ? ", kept"
+                       : s.from_cache ? ", from the cache"
+                                      : "");
+    return out + fmt::format(
+                     "    nodes_full {} nodes_empty {} nodes_leaf {}, anisotropy {}; build {:.3f} s, "
+                     "lookups and shading {:.3f} s (all threads)\n",
+                     s.nodes.full, s.nodes.empty, s.nodes.leaf, s.anisotropy, s.build.build_s, s.lookup_s);
 }
 
 std::int64_t stack_bytes(const SceneLight& light, std::int64_t triangles) {

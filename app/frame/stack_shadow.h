@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/frame/light_shadow.h"
+#include "app/frame/shadow_method.h"
 #include "core/isa.h"
 #include "core/mesh.h"
 #include "hierarchy/codes/tree_file.h"
@@ -51,13 +51,13 @@ bool build_light_stack(const Mesh& mesh, const FocusedViews& views, const Exec& 
 std::string read_light_stack(const std::filesystem::path& file, const TreeFileKey& key,
                              const FocusedViews& views, LightShadow& shadow);
 
-struct FrameCache;
-
-/// The stack of shadow.light: read from its file, or built and written there; `notices` as
-/// read_light_stack(). `cache`: where files may lie, and the mesh's key.
-bool make_light_stack(const Mesh& mesh, const Exec& exec, std::int64_t most_bytes, FrameCache& cache,
-                      std::vector<std::string>& notices, LightShadow& shadow,
-                      const std::atomic<bool>* cancel);
+// Of ShadowMethodRow; the stack is read from its file, or built and written there.
+ResolutionQuery stack_resolution(const Scene& scene, const SceneLight& light);
+bool make_stack_shadow(const ShadowWork& work, const TreeNeeds* needs, std::int64_t most_bytes,
+                       LightShadow& shadow);
+void give_stack_shadow(const ShadowWork& work, const LightShadow& shadow, const TileScene& tiles,
+                       TileLight& light);
+std::string stack_shadow_text(const LightShadowStats& stats);
 
 /// Expected bytes of a finished stack, and of what making it holds beside that, with so many triangles that
 /// cast shadows. While its resolution is to be found, of the finest there may be.

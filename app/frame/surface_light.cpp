@@ -6,6 +6,7 @@
 #include "app/frame/soft_light.h"
 #include "app/frame/surface_blur.h"
 #include "core/buffer.h"
+#include "core/morton.h"
 #include "core/num.h"
 #include "core/parallel.h"
 #include "core/vec_arrays.h"
@@ -103,18 +104,12 @@ class PatchPoints {
         const Bounds box = bounds_of(mesh);
         const Vec3d size = box.high - box.low;
         const double cell = std::max({size.x, size.y, size.z, 1e-30}) / 1023;
-        const auto spread = [](double at) {
-            auto v = static_cast<std::uint64_t>(std::clamp(at, 0.0, 1023.0));
-            v = (v | v << 16) & 0x030000ffu;
-            v = (v | v << 8) & 0x0300f00fu;
-            v = (v | v << 4) & 0x030c30c3u;
-            return (v | v << 2) & 0x09249249u;
-        };
+        const auto step = [](double at) { return static_cast<std::uint32_t>(std::clamp(at, 0.0, 1023.0)); };
         std::vector<std::uint64_t> keys;
         keys.reserve(middles.size());
         for (std::size_t i = 0; i < middles.size(); ++i) {
             const Vec3d at = (middles[i].p - box.low) * (1 / cell);
-            const std::uint64_t code = spread(at.x) | spread(at.y) << 1 | spread(at.z) << 2;
+            const std::uint64_t code = morton_code(step(at.x), step(at.y), step(at.z));
             keys.push_back(code << 32 | i);
         }
         std::sort(keys.begin(), keys.end());

@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "app/frame/channels.h"
 #include "app/frame/exact_tile.h"
 #include "app/frame/frame_sky.h"
 #include "core/stopwatch.h"
@@ -223,8 +224,8 @@ void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool 
 
 std::int64_t render_tile(const TileScene& scene, int column, int row, const FrameOptions& options, Isa isa,
                          TileWork& work, ExactTile* exact, Frame& frame) {
-    const bool channels = options.depth || options.normal || options.albedo || options.object ||
-                          options.shadow || options.shift;
+    bool channels = false;
+    for_each_channel([&](const auto& channel) { channels |= channel.by_tiles && options.*channel.wanted; });
     const auto samples = static_cast<int>(scene.pattern.size());
     std::int64_t covered = 0;
     const TileRect whole = tile_of(scene, column, row, {});

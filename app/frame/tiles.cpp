@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <mutex>
 
+#include "app/frame/channels.h"
 #include "app/frame/exact_tile.h"
 #include "core/parallel.h"
 
 namespace obscura {
 namespace {
-
-/// One channel: as large as the frame when wanted, else empty.
-template <class T>
-void set_channel(Image<T>& channel, bool wanted, const Frame& frame) {
-    channel = wanted ? Image<T>(frame.width, frame.height) : Image<T>();
-}
 
 /// Tells `progress` about once per half percent, one call at a time.
 class ProgressMeter {
@@ -55,12 +50,11 @@ void size_frame(const Region& crop, const FrameOptions& options, Frame& frame) {
     frame.width = crop.width;
     frame.height = crop.height;
     frame.radiance.reset(crop.width, crop.height);
-    set_channel(frame.depth_m, options.depth, frame);
-    set_channel(frame.normal, options.normal, frame);
-    set_channel(frame.albedo, options.albedo, frame);
-    set_channel(frame.object, options.object, frame);
-    set_channel(frame.shift_px, options.shift, frame);
-    set_channel(frame.shadow, options.shadow, frame);
+    // A channel is as large as the frame when it is wanted, else empty.
+    for_each_channel([&]<class T>(const FrameChannel<T>& row) {
+        if (!row.by_tiles) return;
+        frame.*row.pixels = options.*row.wanted ? Image<T>(frame.width, frame.height) : Image<T>();
+    });
 }
 
 std::size_t tile_count(const TileScene& scene, const Frame& frame) {
@@ -75,7 +69,7 @@ bool walk_tiles(const TileScene& scene, const FrameOptions& options, const Exec&
     ProgressMeter meter(options.progress, tiles);
     std::atomic<bool> skipped = false;
     parallel_for(tiles, exec, [&](std::size_t i) {
-        if (options.cancel != nullptr && options.cancel->load(std::memory_order_relaxed)) {
+        if (stopped(options.cancel)) {
             skipped = true;
             return;
         }

@@ -6,6 +6,7 @@
 #include "app/glare/glare_memory.h"
 #include "app/glare/lens.h"
 #include "app/glare/source_kernels.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 
 namespace obscura {
@@ -48,8 +49,7 @@ void prepare_psf(const Scene& scene, const GlareCall& call, const Exec& exec, st
     const Stopwatch watch;
     const Psf psf = far_field_psf(lens_aperture(scene.optics), psf_params(scene.optics, scene.render), exec,
                                   [&](double share) {
-                                      if (call.cancel && call.cancel->load(std::memory_order_relaxed))
-                                          throw Cancelled{};
+                                      if (stopped(call.cancel)) throw Cancelled{};
                                       if (call.progress) call.progress(share);
                                   });
     kept = KeptPsf{

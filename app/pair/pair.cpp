@@ -7,6 +7,7 @@
 #include "app/frame/memory.h"
 #include "app/pair/middle.h"
 #include "core/error.h"
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "stereo/map_projection.h"
 #include "stereo/reduced_system.h"
@@ -16,11 +17,6 @@
 
 namespace obscura {
 namespace {
-
-bool stopped(const StereoPairOptions& options) {
-    const std::atomic<bool>* cancel = options.channels.cancel;
-    return cancel != nullptr && cancel->load(std::memory_order_relaxed);
-}
 
 MiddleView view_of(const Scene& scene, const StereoSettings& settings, const Exec& exec, FrameCache& cache) {
     if (settings.margin_px != auto_margin)
@@ -204,12 +200,12 @@ void render_stereo_pair(const Scene& scene, const StereoSettings& settings, cons
     pair.view = view_of(scene, settings, exec, cache.eyes.frame);
     pair.times.view_s = viewing.seconds();
     check_bytes(scene, settings, 0, pair);  // with the margin that was found
-    if (stopped(options)) return;
+    if (stopped(options.channels.cancel)) return;
 
     solve_map(scene, settings, exec, cache, pair);
     if (cache.last) pair.temporal = temporal_change(*cache.last, pair, scene.camera, options.steady_px);
     keep_for_next(scene, pair, cache);
-    if (stopped(options)) return;
+    if (stopped(options.channels.cancel)) return;
 
     if (options.pictures) {
         render_pair(scene, settings, options, exec, cache, pair);

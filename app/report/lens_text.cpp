@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/frame/memory.h"
 #include "app/glare/glare_margin.h"
 #include "app/glare/lens.h"
 #include "core/count_text.h"
@@ -24,10 +25,6 @@ std::string aperture_text(const OpticsSettings& o) {
     if (o.shape.kind == ApertureKind::iris || o.shape.kind == ApertureKind::whirl)
         return fmt::format("{} of {} blades{}", name, o.shape.blades, dirt);
     return fmt::format("{}{}", name, dirt);
-}
-
-double mib(std::int64_t bytes) {
-    return static_cast<double>(bytes) / (1 << 20);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/frame/memory.h"
 #include "app/frame/shadow_text.h"
 #include "app/frame/sun_hours_text.h"
 #include "core/count_text.h"
@@ -11,10 +12,6 @@
 
 namespace obscura {
 namespace {
-
-double mib(std::int64_t bytes) {
-    return static_cast<double>(bytes) / (1 << 20);
-}
 
 std::string stages_text(const FrameReport& report) {
     const FrameStats& s = report.stats;

@@ -5,7 +5,7 @@
 
 namespace obscura {
 
-/// What app/scene_format.md holds; a test compares them. `obscura dump --format` prints it.
+/// What app/scene/format.md holds; a test compares them. `obscura dump --format` prints it.
 std::string scene_format_doc();
 
 }  // namespace obscura

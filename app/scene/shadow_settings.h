@@ -96,4 +96,9 @@ struct ShadowSettings {
     friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
 };
 
+/// Whether a light's shadow is made for one picture's lookups, and serves no other.
+inline bool is_of_one_picture(const ShadowSettings& shadow) {
+    return shadow.method == ShadowMethod::compressed && shadow.scope == ShadowScope::frame;
+}
+
 }  // namespace obscura

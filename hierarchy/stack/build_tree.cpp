@@ -110,7 +110,6 @@ MultiresCounts operator+(const MultiresCounts& a, const MultiresCounts& b) {
 StackTree build_stack_tree(int slices, int map_levels, const std::function<CertainTree(int)>& slice,
                            const StackTreeParams& params, const Exec& exec, StackTreeStats* stats,
                            const std::atomic<bool>* cancel) {
-    const auto stopped = [&] { return cancel != nullptr && cancel->load(std::memory_order_relaxed); };
     CHECK(slices >= 1 && map_levels >= 0 && !params.anisotropies.empty());
     std::vector<Attempt> attempts = attempts_of(slices, map_levels, params);
     StackTreeStats counted;
@@ -122,18 +121,18 @@ StackTree build_stack_tree(int slices, int map_levels, const std::function<Certa
         parallel_for(maps.size(), exec, [&](std::size_t i) {
             maps[i].reset();
             quadtrees[i] = {};
-            if (static_cast<int>(i) >= count || stopped()) return;
+            if (static_cast<int>(i) >= count || stopped(cancel)) return;
             maps[i] = std::make_shared<const CertainTree>(slice(first + static_cast<int>(i)));
             if (params.count_quadtrees) quadtrees[i] = count_nodes(multires_of(*maps[i]));
         });
         // Merging takes longer than making: maps without a meaning are not worth it.
-        if (stopped()) return {attempts[0].shape(), {}};
+        if (stopped(cancel)) return {attempts[0].shape(), {}};
         for (std::size_t i = 0; i < maps.size(); ++i) {
             counted.certain_groups += maps[i] ? maps[i]->groups.size() : 0;
             counted.quadtrees = counted.quadtrees + quadtrees[i];
         }
         parallel_for(attempts.size(), exec, [&](std::size_t i) {
-            if (!stopped()) attempts[i].push(maps);
+            if (!stopped(cancel)) attempts[i].push(maps);
         });
     }
     maps.clear();
@@ -142,7 +141,7 @@ StackTree build_stack_tree(int slices, int map_levels, const std::function<Certa
     std::optional<StackTree> best;
     std::uint64_t best_bytes = std::numeric_limits<std::uint64_t>::max();
     for (Attempt& attempt : attempts) {
-        if (stopped()) return {attempts[0].shape(), {}};
+        if (stopped(cancel)) return {attempts[0].shape(), {}};
         std::optional<MultiresTree> tree = attempt.finish();
         const std::uint64_t bytes = tree ? word_bytes(count_nodes(*tree)) : 0;
         counted.trials.push_back({attempt.shape().anisotropy, !tree, bytes});

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/parallel.h"
 #include "hierarchy/build.h"
 #include "hierarchy/stack/encode.h"
 
@@ -55,7 +56,7 @@ ShadowStack build_stack(const Mesh& mesh, const FocusedViews& views, const Stack
         static_cast<int>(views.slices.size()), map_levels,
         [&](int k) { return build_certain_tree(mesh, views.view(k), slice_params, alone, nullptr, cancel); },
         params.tree, exec, stats, cancel);
-    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return {};
+    if (stopped(cancel)) return {};
     ShadowStack stack;
     stack.frame = views.frame;
     stack.slices = std::make_shared<const std::vector<SliceView>>(views.slices);

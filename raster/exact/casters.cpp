@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/morton.h"
 #include "core/parallel.h"
 #include "core/vec_arrays.h"
 #include "raster/light_samples.h"
@@ -40,15 +41,6 @@ Box box_of(const TriangleRecord& t) {
             std::min({t.y[0], t.y[1], t.y[2]}), std::max({t.y[0], t.y[1], t.y[2]})};
 }
 
-/// Bits of v with a zero between each two.
-std::uint64_t spread(std::uint64_t v) {
-    v = (v | (v << 8)) & 0x00ff00ff00ff00ffu;
-    v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0fu;
-    v = (v | (v << 2)) & 0x3333333333333333u;
-    v = (v | (v << 1)) & 0x5555555555555555u;
-    return v;
-}
-
 constexpr int cell_bits = 13, class_bits = 4;
 constexpr int key_bits = 2 * cell_bits + class_bits;
 
@@ -61,11 +53,10 @@ std::uint64_t order_of(const TriangleRecord& t, std::int32_t steps) {
     const int size = std::min(static_cast<int>(std::bit_width(side) + 1) / 2, (1 << class_bits) - 1);
     const auto cell = [&](std::int32_t low, std::int32_t high) {
         const std::int64_t middle = std::clamp<std::int64_t>((std::int64_t{low} + high) / 2, 0, steps - 1);
-        return static_cast<std::uint64_t>(middle) >> (28 - cell_bits);
+        return static_cast<std::uint32_t>(middle >> (28 - cell_bits));
     };
     const std::uint64_t smaller = static_cast<std::uint64_t>((1 << class_bits) - 1 - size);
-    return smaller << (2 * cell_bits) | spread(cell(b.x_low, b.x_high)) |
-           spread(cell(b.y_low, b.y_high)) << 1;
+    return smaller << (2 * cell_bits) | morton_code(cell(b.x_low, b.x_high), cell(b.y_low, b.y_high));
 }
 
 /// Index and order of every record, sorted: by chunks of records, each of whose digits are counted alone, so
@@ -236,7 +227,7 @@ std::vector<Casters> build_casters(const Mesh& mesh, const Light& light, const E
     const Bounds box = is_parallel(light.kind) ? caster_box(mesh, light.direction) : Bounds{};
     std::vector<Casters> all;
     for (const LightView& view : fitted_shadow_views(light, params, box)) {
-        if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return {};
+        if (stopped(cancel)) return {};
         Casters& casters = all.emplace_back();
         if (!scratch.spare.empty()) {
             casters = std::move(scratch.spare.back());

@@ -2,6 +2,7 @@
 // Sixteen samples of a light with a size, and what is within its reach of them. Kernel files only; the
 // meaning of each step is in exact_soft_ref.cpp.
 
+#include "raster/exact/exact_bunch.h"
 #include "raster/exact/exact_receivers.h"
 #include "raster/exact/exact_soft.h"
 
@@ -18,25 +19,15 @@ struct Gathered {
 
 OBSCURA_INLINE void gather(const ExactPoints& points, const ExactLight& middle, const ExactSamples& samples,
                            const std::uint32_t* order, int n, Gathered& to) {
-    alignas(64) float rounding[16];
+    gather_bunch(points, middle, samples, order, n, to.bunch);
     to.thin = 0;
     for (int k = 0; k < 16; ++k) {
-        const std::uint32_t i = order[k < n ? k : 0], at = samples.point[i];
-        to.bunch.x[k] = samples.x[i];
-        to.bunch.y[k] = samples.y[i];
-        to.bunch.z[k] = samples.z[i];
-        rounding[k] = samples.rounding[i];
-        to.bunch.point[k] = static_cast<std::int32_t>(at);
-        to.bunch.face[k] = static_cast<std::int32_t>(points.face[at]);
-        to.bunch.px[k] = points.px[at];
-        to.bunch.py[k] = points.py[at];
-        to.bunch.pz[k] = points.pz[at];
+        const auto at = static_cast<std::uint32_t>(to.bunch.point[k]);
         to.gx[k] = points.gx[at];
         to.gy[k] = points.gy[at];
         to.gz[k] = points.gz[at];
         to.thin |= (points.thin[at / 16] >> (at % 16) & 1u) << k;
     }
-    finish_bunch(middle, load(rounding), n >= 16 ? 0xffffu : (1u << n) - 1u, to.bunch);
     constexpr auto beyond = static_cast<std::int32_t>(exact_beyond);
     const Extent& e = to.bunch.extent;
     to.is_far = least(e.x_low, e.y_low) <= -beyond || most(e.x_high, e.y_high) >= 2 * beyond;

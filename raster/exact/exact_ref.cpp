@@ -11,10 +11,6 @@
 namespace obscura::ref {
 namespace {
 
-double row(const double (&m)[4], Vec3d p) {
-    return (m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3]);
-}
-
 /// Value of edge k at the sample: inside when >= 0 (edge_function() of raster/coverage.h).
 std::int64_t edge(const CasterTriangle& t, int k, const Place& s) {
     const int n = k == 2 ? 0 : k + 1;
@@ -118,18 +114,18 @@ Question question(const ExactPoints& points, const ExactLight& light, int at) {
     double w = 1.0;
     q.looks = view.levels > 0;
     if (view.perspective) {
-        w = row(view.to_map[3], place.p);
+        w = row_at(view.to_map[3], place.p);
         q.looks = q.looks && w >= view.near_w;
     }
     const double inv = 1.0 / w;
     const auto on_grid = [&](int r) {
-        const double steps = (row(view.to_map[r], place.p) * inv) * 256.0;
+        const double steps = (row_at(view.to_map[r], place.p) * inv) * 256.0;
         return static_cast<std::int32_t>(std::nearbyint(lane_min(lane_max(steps, -1.0), view.steps + 1.0)));
     };
     place.x = on_grid(0);
     place.y = on_grid(1);
     q.looks = q.looks && place.x >= 0 && place.x <= view.steps && place.y >= 0 && place.y <= view.steps;
-    place.z = static_cast<float>(row(view.to_map[2], place.p) * inv);
+    place.z = static_cast<float>(row_at(view.to_map[2], place.p) * inv);
     const float reach =
         light.viewer[3] != 0 ? std::fabs(dot(g, p)) : (std::fabs(p.x) + std::fabs(p.y)) + std::fabs(p.z);
     place.rounding = exact_depth_error * reach + static_cast<float>(view.step_m) * static_cast<float>(w);

@@ -4,21 +4,13 @@
 #include <bit>
 #include <utility>
 
+#include "core/morton.h"
 #include "raster/depth_tile.h"
 
 namespace obscura {
 namespace {
 
 constexpr int cell_bits = 10, view_bits = 3;
-
-/// Bits of v (ten) with a zero between each two.
-std::uint32_t spread(std::uint32_t v) {
-    v = (v | (v << 8)) & 0x00ff00ffu;
-    v = (v | (v << 4)) & 0x0f0f0f0fu;
-    v = (v | (v << 2)) & 0x33333333u;
-    v = (v | (v << 1)) & 0x55555555u;
-    return v;
-}
 
 }  // namespace
 
@@ -93,9 +85,10 @@ void ExactWork::sort_samples(int views) {
     const int shift = std::max(static_cast<int>(std::bit_width(span)) - cell_bits, 0);
     for (std::size_t i = 0; i < n; ++i) {
         const auto cell = [&](std::int32_t at, std::int32_t low) {
-            return spread(static_cast<std::uint32_t>(at - low) >> shift);
+            return static_cast<std::uint32_t>(at - low) >> shift;
         };
-        key_[i] = std::uint32_t{view_[i]} << (2 * cell_bits) | cell(x_[i], x0) | cell(y_[i], y0) << 1;
+        key_[i] = static_cast<std::uint32_t>(std::uint64_t{view_[i]} << (2 * cell_bits) |
+                                             morton_code(cell(x_[i], x0), cell(y_[i], y0)));
         order_[i] = static_cast<std::uint32_t>(i);
     }
     sort_digit(0);

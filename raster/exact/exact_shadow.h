@@ -8,6 +8,7 @@
 #include "core/buffer.h"
 #include "core/isa.h"
 #include "core/mesh.h"
+#include "core/morton.h"
 #include "raster/exact/exact.h"
 #include "raster/exact/exact_nearest.h"
 #include "raster/exact/exact_soft.h"
@@ -61,12 +62,9 @@ class ExactWork {
 /// Where sample k of `count` of pixel (x, y) of a tile stands among the tile's points: along a Morton curve
 /// of the pixels, a pixel's samples together, so that neighbours in the list are neighbours in the picture.
 constexpr int exact_point_index(int k, int count, int x, int y) {
-    const auto spread = [](int v) {
-        v = (v | (v << 4)) & 0x0f0f;
-        v = (v | (v << 2)) & 0x3333;
-        return (v | (v << 1)) & 0x5555;
-    };
-    return (spread(x) | spread(y) << 1) * count + k;
+    return static_cast<int>(morton_code(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))) *
+               count +
+           k;
 }
 
 /// Positions of a block's samples in doubles, each on the plane of its face, and these faces: block_samples

@@ -63,10 +63,6 @@ ExactSpread exact_spread(const Light& l, const ExactLight& light) {
 namespace ref {
 namespace {
 
-double row(const double (&m)[4], Vec3d p) {
-    return (m[0] * p.x + m[1] * p.y) + (m[2] * p.z + m[3]);
-}
-
 bool is(const std::uint32_t* mask, int at) {
     return (mask[at / 16] >> (at % 16) & 1u) != 0;
 }
@@ -174,9 +170,9 @@ void exact_reach(const ExactPoints& points, const ExactLight& middle, const Exac
                 if (!(least < facing) && !is(points.thin, at)) continue;
                 if ((middle.views == 6 ? cube_face(-l) : 0) != v) continue;
                 const Vec3d world = position(points, at);
-                const double w = view.perspective ? row(view.to_map[3], world) : 1.0, inv = 1.0 / w;
+                const double w = view.perspective ? row_at(view.to_map[3], world) : 1.0, inv = 1.0 / w;
                 const auto on_grid = [&](int r) {
-                    const double steps = (row(view.to_map[r], world) * inv) * 256.0;
+                    const double steps = (row_at(view.to_map[r], world) * inv) * 256.0;
                     return static_cast<std::int32_t>(
                         std::nearbyint(lane_min(lane_max(steps, -exact_beyond), view.steps + exact_beyond)));
                 };
@@ -189,7 +185,7 @@ void exact_reach(const ExactPoints& points, const ExactLight& middle, const Exac
                 const std::int32_t i = samples.count++;
                 samples.x[i] = x;
                 samples.y[i] = y;
-                samples.z[i] = static_cast<float>(row(view.to_map[2], world) * inv);
+                samples.z[i] = static_cast<float>(row_at(view.to_map[2], world) * inv);
                 samples.rounding[i] =
                     exact_depth_error * reach + static_cast<float>(view.step_m) * static_cast<float>(w);
                 samples.point[i] = static_cast<std::uint32_t>(at);

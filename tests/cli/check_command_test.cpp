@@ -205,6 +205,36 @@ TEST(CheckCommand, APairTakesMoreThanAPicture) {
     EXPECT_GT(mib_of(two, "memory    a pair: about "), 3 * picture) << two;
 }
 
+TEST(CheckCommand, RefusesWhatRenderingRefuses) {
+    TemporaryFolder folder;
+    const std::string plain =
+        "format = 1\ncamera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}\nrender = {size_px = [2000, "
+        "2000]}\n[[mesh]]\nid = \"a\"\nshape = \"box\"\n";
+    folder.write("plain.toml", plain);
+    std::string files = plain;
+    for (const char* aov : {"depth", "normal", "albedo", "object", "shadow"})
+        files += std::string("[[output]]\nfile = \"") + aov + ".pfm\"\naov = \"" + aov + "\"\n";
+    folder.write("channels.toml", files);
+    folder.write("pair.toml", plain + "[stereo]\n");
+    const auto check = [&](const char* scene, int limit_mib) -> std::string {
+        try {
+            check_report({folder.path / scene, {"limits.memory_mib=" + std::to_string(limit_mib)}, {}});
+        } catch (const LimitError& error) {
+            return error.what();
+        }
+        return "ok";
+    };
+    // 2000 x 2000 pixels: 36 bytes of channels are 137 MiB.
+    const std::string report = check_report({folder.path / "plain.toml", {}, {}});
+    const std::string before = "memory    about ";
+    const int picture = std::stoi(report.substr(report.find(before) + before.size()));
+    EXPECT_EQ(check("plain.toml", picture + 60), "ok");
+    EXPECT_EQ(check("channels.toml", picture + 60).rfind("the frame: needs about ", 0), 0u);
+    EXPECT_EQ(check("channels.toml", picture + 180), "ok");
+    EXPECT_NE(check("pair.toml", picture + 60).find("pair.toml: needs about "), std::string::npos);
+    EXPECT_EQ(check("pair.toml", 4096), "ok");
+}
+
 TEST(CheckCommand, LensesThatNothingHasAreToldAtTheirKey) {
     const TemporaryFolder folder;
     const std::string file = (folder.path / "a.toml").string();

@@ -8,6 +8,7 @@
 #include "app/frame/needed_texels.h"
 #include "app/frame/shadow_resolution.h"
 #include "app/frame/shadows.h"
+#include "app/frame/tree_shadow.h"
 #include "core/error.h"
 #include "filters/shadow_lookup.h"
 #include "raster/interval_map.h"
@@ -223,19 +224,7 @@ Scene all_compressed(int samples = 1) {
 }
 
 TEST(CompressedFrame, IsTheSameForEveryExecAndCrop) {
-    const Scene scene = all_compressed(4);
-    const Frame whole = render_frame(scene, all_channels(), {Isa::ref, 1});
-    for (const Isa isa : supported_isas()) {
-        for (const int threads : {1, 3})
-            EXPECT_EQ(hash(render_frame(scene, {}, {isa, threads})), hash(whole));
-    }
-    FrameOptions options = all_channels();
-    options.crop = {37, 21, 90, 70};
-    const Frame part = render_frame(scene, options, {});
-    for (int y = 0; y < part.height; ++y) {
-        for (int x = 0; x < part.width; ++x)
-            ASSERT_EQ(pixel(part, x, y), pixel(whole, x + 37, y + 21)) << x << "," << y;
-    }
+    expect_one_picture(all_compressed(4), {37, 21, 90, 70});
 }
 
 /// All of them, one tap, written in this code.
@@ -280,19 +269,8 @@ TEST(CompressedFrame, ShowsTheSameInEveryCodeButInsideSolids) {
 }
 
 TEST(CompressedFrame, OfMergedTreesIsTheSameForEveryExecAndCrop) {
-    for (const ShadowCode code : {ShadowCode::mmh, ShadowCode::dag}) {
-        const Scene scene = whole_trees(code);
-        const Frame whole = render_frame(scene, all_channels(), {Isa::ref, 1});
-        for (const Isa isa : supported_isas())
-            EXPECT_EQ(hash(render_frame(scene, {}, {isa, 3})), hash(whole));
-        FrameOptions options = all_channels();
-        options.crop = {37, 21, 90, 70};
-        const Frame part = render_frame(scene, options, {});
-        for (int y = 0; y < part.height; ++y) {
-            for (int x = 0; x < part.width; ++x)
-                ASSERT_EQ(pixel(part, x, y), pixel(whole, x + 37, y + 21)) << x << "," << y;
-        }
-    }
+    for (const ShadowCode code : {ShadowCode::mmh, ShadowCode::dag})
+        expect_one_picture(whole_trees(code), {37, 21, 90, 70}, {Isa::ref, 1}, {3});
 }
 
 TEST(CompressedFrame, KeepsWhatStillServes) {

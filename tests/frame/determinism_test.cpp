@@ -64,37 +64,9 @@ TEST_P(EveryIsa, StagesAgreeWithTheReferenceBitForBit) {
 }
 INSTANTIATE_TEST_SUITE_P(Cameras, EveryIsa, testing::Bool());
 
-TEST(FrameDeterminism, SamePictureOnEveryIsaAndThreadCount) {
-    const Scene scene = everything(4);
-    const std::uint64_t expected = hash(render_frame(scene, {}, {Isa::ref, 1}));
-    for (const Isa isa : supported_isas()) {
-        for (const int threads : {1, 2, 3, 7}) {
-            if (isa == Isa::ref && threads != 7) continue;
-            EXPECT_EQ(hash(render_frame(scene, {}, {isa, threads})), expected)
-                << isa_name(isa) << ", " << threads << " threads";
-        }
-    }
-}
-
-TEST(FrameDeterminism, CropIsPartOfTheWhole) {
-    const Scene scene = everything(1);
-    FrameOptions options;
-    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
-    const Frame whole = render_frame(scene, options);
-    options.crop = {37, 21, 101, 77};
-    const Frame part = render_frame(scene, options);
-    ASSERT_EQ(part.width, 101);
-    ASSERT_EQ(part.height, 77);
-    for (int y = 0; y < part.height; ++y) {
-        for (int x = 0; x < part.width; ++x) {
-            ASSERT_EQ(pixel(part, x, y), pixel(whole, x + 37, y + 21)) << x << "," << y;
-            ASSERT_EQ(part.depth_m(x, y), whole.depth_m(x + 37, y + 21));
-            ASSERT_EQ(part.normal(x, y), whole.normal(x + 37, y + 21));
-            ASSERT_EQ(part.albedo(x, y), whole.albedo(x + 37, y + 21));
-            ASSERT_EQ(part.object(x, y), whole.object(x + 37, y + 21));
-            ASSERT_EQ(part.shadow(x, y), whole.shadow(x + 37, y + 21));
-        }
-    }
+TEST(FrameDeterminism, SamePictureOnEveryIsaThreadCountAndCrop) {
+    for (const int samples : {1, 4})
+        expect_one_picture(everything(samples), {37, 21, 101, 77}, {Isa::ref, 1}, {1, 2, 3, 7});
 }
 
 TEST(FrameDeterminism, HoursOfSunAreThoseOfTheWhole) {

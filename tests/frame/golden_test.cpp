@@ -21,6 +21,7 @@
 #include "core/hash.h"
 #include "core/image_io.h"
 #include "filters/tonemap.h"
+#include "tests/frame/one_picture.h"
 
 namespace obscura {
 namespace {
@@ -61,10 +62,7 @@ struct Rendered {
 Rendered render(const fs::path& file) {
     const SceneDocument document = read_scene(file);
     const Scene scene = build_scene(document, FileAccess{document.folder, {}});
-    FrameOptions options;
-    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
-    options.sun_hours = std::any_of(scene.outputs.begin(), scene.outputs.end(),
-                                    [](const Output& o) { return o.aov == Aov::sun_hours; });
+    const FrameOptions options = all_channels(scene.outputs);
     const Frame frame = render_frame(scene, options);
     Rendered r;
     r.picture = tonemap(frame.radiance.view(), {scene.render.exposure_ev, scene.render.tone}, Exec{});

@@ -5,9 +5,12 @@
 
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/frame/light_shadow.h"
+#include "app/frame/scene_light.h"
+#include "app/frame/shadow_cache.h"
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
@@ -75,6 +78,36 @@ TEST(Kept, ShadowsNoticeEveryKeyOfTheirLight) {
         std::erase_if(of_trees, [](const KeySpec& key) { return key.name == "samples"; });
         expect_noticed(scene + "shadow = {resolution = \"auto\"}\n", "light.l.shadow.", of_trees,
                        {"max_magnification"});
+    }
+}
+
+TEST(Kept, FilesOfTreesNoticeEveryKeyOfTheirLight) {
+    const std::string scene = start + "[[light]]\nid = \"l\"\ntype = \"point\"\nposition_m = [0, 3, 0]\n" +
+                              "intensity_w_sr = 1\nshadow = {resolution = 1024, scope = \"full\"}\n";
+    // What decides about pictures, not about trees; and keys that a tree of a given resolution has not.
+    const std::set<std::string> idle = {"normal_offset_texels", "scope", "filter", "cache"},
+                                none = {"method", "samples", "max_magnification"};
+    const auto key_of = [](const SceneLight& light) {
+        const TreeFileKey key = shadow_key(TreeFileKey{1, 2}, light,
+                                           fitted_shadow_views(light, Bounds{}, light.shadow.resolution));
+        return std::pair{key.high, key.low};
+    };
+    const SceneLight before = made_for(scene).light;
+    for (const KeySpec& key : shadow_table().keys) {
+        if (none.contains(key.name)) continue;
+        int changes = 0;
+        for (const std::string& value : candidates(key)) {
+            try {
+                const SceneLight now = made_for(scene, {"light.l.shadow." + key.name + "=" + value}).light;
+                if (now == before || now.shadow.resolution == auto_resolution) continue;
+                ++changes;
+                EXPECT_EQ(key_of(now) == key_of(before), idle.contains(key.name))
+                    << key.name << " = " << value;
+            } catch (const InputError&) {
+                // Not every candidate fits.
+            }
+        }
+        EXPECT_GT(changes, 0) << key.name;
     }
 }
 

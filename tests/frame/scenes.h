@@ -3,10 +3,10 @@
 
 #include "app/frame/render_frame.h"
 #include "app/frame/scene_light.h"
-#include "core/hash.h"
 #include "core/num.h"
 #include "core/topology.h"
 #include "scenes/shapes.h"
+#include "tests/frame/one_picture.h"
 
 namespace obscura::frame_scenes {
 
@@ -114,17 +114,6 @@ inline Scene everything(int samples, bool orthographic = false) {
     scene.lights[2].shadow.filter_px = 5;
     scene.lights[2].shadow.receivers = Receivers::static_only;
     return scene;
-}
-
-/// Every channel wanted.
-inline FrameOptions all_channels() {
-    FrameOptions options;
-    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
-    return options;
-}
-
-inline std::uint64_t hash(const Frame& frame) {
-    return Hasher{}.bytes(frame.radiance.pixels.data(), frame.radiance.pixels.size() * sizeof(Vec3f)).state;
 }
 
 inline Vec3f pixel(const Frame& frame, int x, int y) {

@@ -11,29 +11,16 @@
 #include "app/frame/render_frame.h"
 #include "app/scene/build.h"
 #include "app/scene/file_access.h"
-#include "core/hash.h"
+#include "core/isa.h"
+#include "tests/frame/one_picture.h"
 
 namespace obscura {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::uint64_t hash_of(const Frame& frame) {
-    Hasher hasher;
-    const ImageView<const Vec3f> radiance = frame.radiance.view();
-    for (int y = 0; y < radiance.height; ++y)
-        hasher.bytes(radiance.row(y), static_cast<std::size_t>(radiance.width) * sizeof(Vec3f));
-    hasher.values(frame.depth_m.pixels).values(frame.normal.pixels).values(frame.albedo.pixels);
-    hasher.values(frame.object.pixels).values(frame.shadow.pixels).values(frame.sun_hours.pixels);
-    return hasher.state;
-}
-
 std::uint64_t render_hash(const Scene& scene, const Exec& exec) {
-    FrameOptions options;
-    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
-    options.sun_hours = std::any_of(scene.outputs.begin(), scene.outputs.end(),
-                                    [](const Output& o) { return o.aov == Aov::sun_hours; });
-    return hash_of(render_frame(scene, options, exec));
+    return hash_of_all(render_frame(scene, all_channels(scene.outputs), exec));
 }
 
 TEST(Determinism, ThreadsAndInstructionSetsGiveOnePicture) {
@@ -63,14 +50,13 @@ TEST(Determinism, ReusedMemoryChangesNothing) {
         if (entry.path().extension() != ".toml") continue;
         const SceneDocument document = read_scene(entry.path());
         const Scene scene = build_scene(document, FileAccess{document.folder, {}});
-        FrameOptions options;
-        options.depth = options.normal = options.albedo = options.object = options.shadow = true;
+        const FrameOptions options = all_channels();
         FrameCache cache;
         Frame frame;
         render_frame(scene, options, {}, cache, frame);
-        const std::uint64_t first = hash_of(frame);
+        const std::uint64_t first = hash_of_all(frame);
         render_frame(scene, options, {}, cache, frame);
-        EXPECT_EQ(hash_of(frame), first) << entry.path().filename();
+        EXPECT_EQ(hash_of_all(frame), first) << entry.path().filename();
     }
 }
 

@@ -154,25 +154,7 @@ TEST(SoftLight, SamePictureOnEveryIsaThreadCountAndCrop) {
         scene.render.height = 40;
         if (samples == 4) scene.sky.kind = SkyKind::clear;
         // The scalar reference asks every triangle: it draws the smaller picture alone.
-        const Frame whole = render_frame(scene, all_channels(), {samples == 1 ? Isa::ref : Isa::sse2, 1});
-        for (const Isa isa : supported_isas()) {
-            for (const int threads : {1, 3}) {
-                // Every kernel with three threads, the fastest by itself, too.
-                if (isa == Isa::ref || (threads == 1 && isa != best_isa())) continue;
-                const Frame other = render_frame(scene, all_channels(), {isa, threads});
-                EXPECT_EQ(hash(other), hash(whole)) << isa_name(isa);
-                EXPECT_EQ(other.shadow.pixels, whole.shadow.pixels) << isa_name(isa);
-            }
-        }
-        FrameOptions options = all_channels();
-        options.crop = {17, 11, 37, 23};
-        const Frame part = render_frame(scene, options);
-        for (int y = 0; y < part.height; ++y) {
-            for (int x = 0; x < part.width; ++x) {
-                ASSERT_EQ(pixel(part, x, y), pixel(whole, x + 17, y + 11)) << x << ',' << y;
-                ASSERT_EQ(part.shadow(x, y), whole.shadow(x + 17, y + 11)) << x << ',' << y;
-            }
-        }
+        expect_one_picture(scene, {17, 11, 37, 23}, {samples == 1 ? Isa::ref : Isa::sse2, 1});
     }
 }
 

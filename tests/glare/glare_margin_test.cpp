@@ -16,6 +16,7 @@
 #include "app/glare/lens.h"
 #include "app/scene/build.h"
 #include "optics/aperture_extent.h"
+#include "tests/frame/one_picture.h"
 
 namespace obscura {
 namespace {
@@ -96,12 +97,6 @@ f_number = 200
 wavelengths = 5
 radius_px = 40
 )" + keys;
-}
-
-FrameOptions all_channels() {
-    FrameOptions options;
-    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
-    return options;
 }
 
 void expect_same(const Frame& a, const Frame& b) {

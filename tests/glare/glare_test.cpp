@@ -22,6 +22,7 @@
 #include "core/error.h"
 #include "core/isa.h"
 #include "core/num.h"
+#include "tests/frame/one_picture.h"
 
 namespace obscura {
 namespace {
@@ -87,12 +88,6 @@ bool same(const Frame& a, const Frame& b) {
         }
     }
     return true;
-}
-
-FrameOptions all_channels() {
-    FrameOptions options;
-    options.depth = options.normal = options.albedo = options.object = options.shadow = true;
-    return options;
 }
 
 TEST(FrameGlare, KeepsTheLightAndLeavesOtherChannels) {

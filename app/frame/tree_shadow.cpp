@@ -1,0 +1,187 @@
+#include "app/frame/tree_shadow.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/frame/needed_texels.h"
+#include "app/frame/scene_light.h"
+#include "app/frame/shadow_cache.h"
+#include "app/frame/shadow_text.h"
+#include "core/error.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "filters/shadow_lookup.h"
+#include "hierarchy/codes/codes.h"
+
+namespace obscura {
+namespace {
+
+std::uint64_t top_bytes(const ShadowTree& tree) {
+    return tree.top ? tree.top->size() * sizeof(TopNode) : 0;
+}
+
+/// Nodes that a tree may have for its construction in this code to stay within `bytes`.
+std::uint64_t most_nodes(std::int64_t bytes, const ShadowCodeRow& code) {
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / code.node_construction_bytes);
+}
+
+MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,
+                        std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
+                        const std::atomic<bool>* cancel) {
+    const ShadowCodeRow& code = row_of(light.shadow.code);
+    params.max_nodes = most_nodes(left_bytes, code);
+    params.keep_intervals = code.wants_intervals;
+    BuildStats of_view;
+    try {
+        MultiresTree tree = build_shadow_tree(mesh, view, params, exec, &of_view, cancel);
+        stats.build += of_view;
+        return tree;
+    } catch (const LimitError& error) {
+        throw LimitError(fmt::format(
+            "light '{}', {} x {} texels: {}, more than fit into the {} MiB that limits.memory_mib leaves; {}",
+            light.light.id, view.width, view.height, error.what(), left_bytes >> 20,
+            smaller_tree_text(light.shadow)));
+    }
+}
+
+void count_trees(LightShadow& shadow) {
+    shadow.stats.nodes = {};
+    shadow.stats.bytes = 0;
+    shadow.stats.code_text =
+        shadow.trees.empty() ? "" : row_of(shadow.trees[0].code.code).text(shadow.trees[0]);
+    for (const ShadowTree& tree : shadow.trees) {
+        shadow.stats.nodes.full += tree.counts.full;
+        shadow.stats.nodes.empty += tree.counts.empty;
+        shadow.stats.nodes.leaf += tree.counts.leaf;
+        shadow.stats.bytes += tree.bytes + top_bytes(tree);
+    }
+}
+
+/// Reads the shadow from its file. False when there is none that serves; a notice says why. A file with the
+/// right key that holds something else than trees of these views is damaged, too.
+bool load(const ShadowWork& work, const std::filesystem::path& file, const TreeFileKey& key,
+          const std::vector<LightView>& views, LightShadow& shadow) {
+    std::string notice;
+    shadow.trees = load_shadow_cache(file, key, notice);
+    const auto serves = [](const ShadowTree& tree, const LightView& view) { return tree.view == view; };
+    if (!shadow.trees.empty() &&
+        !std::equal(shadow.trees.begin(), shadow.trees.end(), views.begin(), views.end(), serves)) {
+        shadow.trees.clear();
+        notice = fmt::format(
+            "{} is damaged (it holds shadow trees of other views than its key says); it is made again",
+            file.string());
+    }
+    if (!notice.empty()) work.stats.notices.push_back(notice);
+    if (shadow.trees.empty()) return false;
+    count_trees(shadow);
+    shadow.stats.from_cache = true;
+    return true;
+}
+
+bool build_trees(const ShadowWork& work, const std::vector<NeededNodes>* needed, std::int64_t most_bytes,
+                 LightShadow& shadow) {
+    const SceneLight& light = shadow.light;
+    if (light.shadow.cache.empty() || light.shadow.scope != ShadowScope::full) {
+        return build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel);
+    }
+    const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
+    const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
+    if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
+    const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
+    const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
+    if (load(work, file, key, views, shadow)) return true;
+    check_shadow_cache(file);
+    if (!build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel)) return false;
+    save_shadow_cache(file, shadow.trees, key);
+    return true;
+}
+
+}  // namespace
+
+bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed, const Exec& exec,
+                       std::int64_t most_bytes, LightShadow& shadow, const std::atomic<bool>* cancel) {
+    const SceneLight& light = shadow.light;
+    const std::vector<LightView> views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
+    shadow.trees.clear();
+    std::int64_t kept_bytes = 0;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        BuildParams params;
+        params.receivers = light.shadow.receivers;
+        params.needed = needed == nullptr ? nullptr : &(*needed)[i];
+        const MultiresTree tree =
+            build_tree(mesh, light, views[i], params, most_bytes - kept_bytes, exec, shadow.stats, cancel);
+        if (stopped(cancel)) {
+            shadow.trees.clear();
+            return false;
+        }
+        const Stopwatch encoding;
+        EncodeParams encode;
+        encode.code = light.shadow.code;
+        encode.layout = light.shadow.layout;
+        encode.exec = exec;
+        encode.top_levels = std::min(light.shadow.top_levels, tree.levels);
+        shadow.trees.push_back(encode_tree(tree, views[i], encode));
+        shadow.stats.encode_s += encoding.seconds();
+        kept_bytes += static_cast<std::int64_t>(shadow.trees.back().bytes + top_bytes(shadow.trees.back()));
+    }
+    count_trees(shadow);
+    return true;
+}
+
+ResolutionQuery tree_resolution(const Scene& scene, const SceneLight& light) {
+    return tree_query(light, casters_of(scene, light.light));
+}
+
+std::vector<TreeNeeds> tree_needs(const ShadowWork& work) {
+    std::vector<PcfLight> lights;
+    for (const LightShadow& s : work.cache.shadows) {
+        if (s.stats.kept || !is_of_one_picture(s.light.shadow)) continue;
+        const auto views = fitted_shadow_views(s.light, s.casters, s.light.shadow.resolution);
+        lights.push_back(pcf_light(s.light, views, work.scene.camera.eye));
+        if (s.light.shadow.filter == ShadowFilter::hierarchical) {
+            filter_hierarchically(lights.back(), work.pictures[0].rays);
+        }
+    }
+    if (lights.empty()) return {};
+    return needed_texels(work.pictures, lights, work.exec);
+}
+
+bool make_tree_shadow(const ShadowWork& work, const TreeNeeds* needs, std::int64_t most_bytes,
+                      LightShadow& shadow) {
+    if (needs == nullptr) return build_trees(work, nullptr, most_bytes, shadow);
+    if (!*needs) {
+        shadow.stats.scope = ShadowScope::full;
+        work.stats.notices.push_back(
+            fmt::format("light '{}': the picture reads so much of the shadow map that all of it is built",
+                        shadow.light.light.id));
+        return build_trees(work, nullptr, most_bytes, shadow);
+    }
+    for (const NeededNodes& view : **needs)
+        shadow.stats.needed += static_cast<std::int64_t>(view.all().size());
+    return build_trees(work, &**needs, most_bytes, shadow);
+}
+
+void give_tree_shadow(const ShadowWork& work, const LightShadow& shadow, const TileScene& tiles,
+                      TileLight& light) {
+    light.pcf = pcf_light(shadow.light, std::span(shadow.trees), work.scene.camera.eye);
+    if (shadow.light.shadow.filter == ShadowFilter::hierarchical)
+        filter_hierarchically(*light.pcf, tiles.rays);
+}
+
+std::string tree_shadow_text(const LightShadowStats& s) {
+    std::string out =
+        maps_text(s, s.scope == ShadowScope::frame ? ", what the frame looks up" : ", all of it") + '\n';
+    const BuildStats& b = s.build;
+    out += fmt::format("    nodes_full {} nodes_empty {} nodes_leaf {}, needed {}, {}: {}\n", s.nodes.full,
+                       s.nodes.empty, s.nodes.leaf, s.needed, name_of(s.code), s.code_text);
+    out += fmt::format(
+        "    nodes_visited {} certified_cover {} certified_mesh {} texels_rasterized {} list_operations {}\n",
+        b.nodes_visited, b.certified_cover, b.certified_mesh, b.texels_rasterized, b.list_operations);
+    return out +
+           fmt::format(
+               "    setup {:.3f} s, build {:.3f} s, serialise {:.3f} s, lookups {:.3f} s (all threads)\n",
+               b.setup_s, b.build_s, s.encode_s, s.lookup_s);
+}
+
+}  // namespace obscura
