@@ -2,7 +2,7 @@
 // The codes: ways to write a tree of depths, one row each.
 //
 // A code has four verbs: encode, look up in lanes, check what a file holds, describe itself. Three are here;
-// looking up is inlined into kernels, so its row stands in codes/tree_step.h and codes/tree_lanes.h. A new
+// looking up is inlined into kernels, so its row stands in tree_step.h and tree_lanes.h. A new
 // code is a folder beside mh/ and mmh/, a number and a name in tree_code.h, a row here and one there.
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 // Scandolo, Bauszat, Eisemann 2016, section 3.2 (traversal) and figure 5 (the lowest common node of several
 // points is where the bits of their coordinates part).
 //
-// A code gives, as static functions (mh/mh_step.h, mmh/mmh_step.h and dag/dag_step.h):
+// A code gives, as static functions (mh_step.h, mmh_step.h and dag_step.h):
 //   root(tree)                         where every descent starts: the root has a value
 //   child(tree, place, height, x, y)   from a node of height `height` (>= 1) to its child that holds texel
 //                                      (x, y); the descent must not have ended

@@ -68,12 +68,15 @@ check_files() {
     sources | grep '\.h$' | xargs -r grep -L '^#pragma once' | sed 's/$/: no #pragma once/'
 }
 
-# Every relative link and every file that a README or a limits.md names is there: beside the page or below it, or named
+# Every relative link and every file that a page names is there, and every one that a comment names with its folder: beside the page or below it, or named
 # from the top. A file is a name with an ending of sources or pages; data and pictures only with their folder. Words in
 # capitals stand for something else (NAME.txt), and what a build or the reader makes is not looked for.
 check_links() {
-    local pages
-    mapfile -t pages < <(find . \( -name README.md -o -name limits.md \) -not -path './build/*' -not -path './.git/*' | sort)
+    local pages place name
+    sources | xargs -r grep -HnoE '// .*[a-z_]+/[a-z_]+\.(h|cpp)\b' |
+        sed -E 's#^([^:]*:[0-9]+):.*[^a-z_/.]([a-z_/]+/[a-z_]+\.(h|cpp))$#\1 \2#' |
+        while read -r place name; do [ -e "$name" ] || echo "$place: there is no $name"; done
+    mapfile -t pages < <(find . -name "*.md" -not -path "./build/*" -not -path "./.git/*" -not -path "./bench/results/*" | sort)
     [ ${#pages[@]} -gt 0 ] || return 0
     find . -not -path './build/*' -not -path './.git/*' | awk '
         function tidy(path) {
@@ -196,6 +199,8 @@ self_test() {
     plant links core/limits.md '| `core/gone.cpp` | it |\n' found
     plant links core/README.md '`README.md`, core/README.md, NAME.txt, `*_ref.cpp`, picture.png, build/x.txt\n' clean
     plant links core/README.md './obscura render scenes/gone.toml\n' found
+    plant links core/a.h '// As core/gone.h says.\n' found
+    plant links core/a.h '// As core/a.h says, and a.h.\n' clean
     plant format core/a.cpp 'int  f( ) ;\n' found
     plant format core/a.cpp 'int f();\n' clean
     rm -rf "$work"
