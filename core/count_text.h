@@ -1,5 +1,5 @@
 #pragma once
-// Counts in messages.
+// Counts and sizes in messages.
 
 #include <cstdint>
 #include <string>
@@ -15,6 +15,10 @@ inline std::string count_text(std::size_t count, const std::string& one, const s
 }
 inline std::string count_text(int count, const std::string& one, const std::string& many = "") {
     return count_text(std::int64_t{count}, one, many);
+}
+
+constexpr double mib(std::int64_t bytes) {
+    return static_cast<double>(bytes) / (1 << 20);
 }
 
 }  // namespace obscura

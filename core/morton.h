@@ -6,11 +6,12 @@
 
 namespace obscura {
 
-/// In the plane: bits of x in the even places.
+/// In the plane: bits of x in the even places. x, y < 2^bits; fewer bits take fewer steps.
+template <int bits = 32>
 constexpr std::uint64_t morton_code(std::uint32_t x, std::uint32_t y) {
     const auto spread = [](std::uint64_t v) {
-        v = (v | v << 16) & 0x0000ffff0000ffffu;
-        v = (v | v << 8) & 0x00ff00ff00ff00ffu;
+        if constexpr (bits > 16) v = (v | v << 16) & 0x0000ffff0000ffffu;
+        if constexpr (bits > 8) v = (v | v << 8) & 0x00ff00ff00ff00ffu;
         v = (v | v << 4) & 0x0f0f0f0f0f0f0f0fu;
         v = (v | v << 2) & 0x3333333333333333u;
         return (v | v << 1) & 0x5555555555555555u;

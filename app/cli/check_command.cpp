@@ -225,7 +225,8 @@ std::string hours_text(const Scene& scene) {
 
 /// Finds what "auto" means for the first frame and puts it in the lights' places; refuses what rendering
 /// would refuse then.
-std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const Exec& exec) {
+std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const FrameOptions& channels,
+                                                             const Exec& exec) {
     std::vector<std::optional<FoundResolution>> found(scene.lights.size());
     const bool any = std::any_of(scene.lights.begin(), scene.lights.end(), [](const SceneLight& light) {
         return casts_shadows(light) && wants_auto(light);
@@ -237,7 +238,8 @@ std::vector<std::optional<FoundResolution>> find_resolutions(Scene& scene, const
     const TileScene tiles = prepare_tiles(scene, exec, cache);
     found = auto_resolutions(scene, tiles, exec);
     settle_resolutions(found, scene.lights);
-    check_memory(estimate_memory(scene), scene.limits, "the frame");
+    check_memory(estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = channels}), scene.limits,
+                 "the frame");
     return found;
 }
 
@@ -282,7 +284,7 @@ std::string check_report(const CheckOptions& options) {
                              estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = channels}),
                          of_views = estimate_memory(scene);
     check_memory(memory, scene.limits, "the frame");
-    const auto found = find_resolutions(scene, Exec{});
+    const auto found = find_resolutions(scene, channels, Exec{});
     const auto lights = subtables(document.root, "light");
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         out += light_text(scene.lights[i], found[i], scene, shadow_method_reason(document.root, *lights[i]));
@@ -305,8 +307,9 @@ std::string check_report(const CheckOptions& options) {
         // A pair writes views, none of the files that a picture has.
         MemoryEstimate pair = of_views;
         pair.frame += stereo_bytes(scene, settings);
-        check_memory(pair, scene.limits, document.sources[0]);
         needs += memory_text("a pair: ", pair, scene);
+        if (pair.total() > scene.limits.memory_mib << 20)
+            needs += "note      a pair is refused: it needs more than limits.memory_mib\n";
     }
     return out + mesh_text(scene) + needs + "ok\n";
 }

@@ -2,6 +2,8 @@
 // The channels of a frame as rows: what asks for one, where its pixels lie, and the name that files ask for
 // it by.
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <tuple>
 
@@ -32,6 +34,17 @@ template <class Visit>
 void for_each_channel(const Visit& visit) {
     std::apply([&](const auto&... row) { (visit(row), ...); }, channel_rows);
 }
+
+constexpr int rows_of(Aov aov) {
+    int rows = 0;
+    std::apply([&](const auto&... row) { ((rows += row.aov == aov ? 1 : 0), ...); }, channel_rows);
+    return rows;
+}
+static_assert(std::all_of(std::begin(aov_words), std::end(aov_words),
+                          [](const auto& word) {
+                              return rows_of(word.value) == (word.value == Aov::beauty ? 0 : 1);
+                          }),
+              "every file but the picture's shows one channel");
 
 /// Wants what a file of `aov` shows.
 inline void want_channel(Aov aov, FrameOptions& options) {

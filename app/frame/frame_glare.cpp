@@ -22,9 +22,9 @@ void crop_channel(const Region& crop, Pixels& channel) {
 
 }  // namespace
 
-void check_bright_pixels(const Scene& scene, std::int64_t bright_px) {
-    check_memory(estimate_memory(scene, {.lights = {}, .bright_px = bright_px, .channels = {}}), scene.limits,
-                 "the frame's glare");
+void check_bright_pixels(const Scene& scene, std::int64_t bright_px, const FrameOptions& channels) {
+    check_memory(estimate_memory(scene, {.lights = {}, .bright_px = bright_px, .channels = channels}),
+                 scene.limits, "the frame's glare");
 }
 
 void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec& exec,
@@ -33,8 +33,11 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
     GlareCall call;
     call.progress = options.progress;
     call.cancel = options.cancel;
-    call.check_bright = [&](std::int64_t bright_px) { check_bright_pixels(scene, bright_px); };
-    call.free_bytes = [&] { return (scene.limits.memory_mib << 20) - estimate_memory(scene).total(); };
+    call.check_bright = [&](std::int64_t bright_px) { check_bright_pixels(scene, bright_px, options); };
+    call.free_bytes = [&] {
+        return (scene.limits.memory_mib << 20) -
+               estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = options}).total();
+    };
     LitPicture picture;
     picture.x0 = frame.x0;
     picture.y0 = frame.y0;

@@ -21,6 +21,6 @@ void add_frame_glare(const Scene& scene, const FrameOptions& options, const Exec
 void crop_frame(const Region& crop, Frame& frame);
 
 /// Throws LimitError when a frame with so many bright pixels does not fit the scene's limits.
-void check_bright_pixels(const Scene& scene, std::int64_t bright_px);
+void check_bright_pixels(const Scene& scene, std::int64_t bright_px, const FrameOptions& channels = {});
 
 }  // namespace obscura

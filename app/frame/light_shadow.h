@@ -1,15 +1,12 @@
 #pragma once
-// The shadows of one light, ready for lookups: a dense map, a tree per view, or a stack.
+// The shadows of one light, ready for lookups: a dense map, a tree per view, casters in order, or a stack.
 
-#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "app/frame/light_shadow_stats.h"
 #include "app/scene/scene.h"
-#include "core/isa.h"
-#include "hierarchy/needed_nodes.h"
 #include "hierarchy/shadow_tree.h"
 #include "hierarchy/stack/stack.h"
 #include "raster/exact/casters.h"

@@ -14,6 +14,7 @@
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/shapes.h"
+#include "core/count_text.h"
 #include "core/error.h"
 #include "core/mesh_memory.h"
 #include "core/parallel.h"

@@ -36,10 +36,6 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known = {})
 /// Of a document before anything is loaded: shapes by their bounds, files and textures as nothing.
 MemoryEstimate estimate_memory(const SceneDocument& document);
 
-constexpr double mib(std::int64_t bytes) {
-    return static_cast<double>(bytes) / (1 << 20);
-}
-
 /// Throws LimitError when `estimate` exceeds limits.memory_mib.
 void check_memory(const MemoryEstimate& estimate, const Limits& limits, const std::string& scene_name);
 

@@ -151,7 +151,7 @@ void render_frame(const Scene& scene, const FrameOptions& options, const Exec& e
     frame.stats.bin_items = static_cast<std::int64_t>(tiles.bins->items.size());
     frame.stats.setup_s = setup.seconds();
     const std::int64_t other_bytes = memory.total() - memory.shadow_maps;
-    if (!prepare_shadows(scene, other_bytes, exec, cache, tiles, frame.stats, options.cancel)) {
+    if (!prepare_shadows(scene, other_bytes, exec, cache, tiles, frame.stats, options)) {
         size_frame(crop_of({0, 0, scene.render.width, scene.render.height}, options), options, frame);
         frame.complete = false;
         frame.stats.total_s = total.seconds();

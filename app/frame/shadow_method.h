@@ -26,6 +26,7 @@ struct ShadowWork {
     FrameCache& cache;
     std::span<TileScene> pictures;
     FrameStats& stats;
+    const FrameOptions& options;  ///< of the frame
     const std::atomic<bool>* cancel;
 };
 

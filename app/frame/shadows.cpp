@@ -1,7 +1,5 @@
 #include "app/frame/shadows.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "app/frame/memory.h"
@@ -36,8 +34,9 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
 void check_found(const ShadowWork& work, const std::vector<std::optional<FoundResolution>>& found) {
     std::vector<SceneLight> lights = work.scene.lights;
     if (settle_resolutions(found, lights))
-        check_memory(estimate_memory(work.scene, {.lights = lights, .bright_px = {}, .channels = {}}),
-                     work.scene.limits, "the frame");
+        check_memory(
+            estimate_memory(work.scene, {.lights = lights, .bright_px = {}, .channels = work.options}),
+            work.scene.limits, "the frame");
 }
 
 /// Whether a surface may ask for shadows that is in no map: then intervals must hold for any receiver.
@@ -186,15 +185,16 @@ std::vector<std::optional<FoundResolution>> auto_resolutions(const Scene& scene,
 }
 
 bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
-                     std::span<TileScene> pictures, FrameStats& stats, const std::atomic<bool>* cancel) {
+                     std::span<TileScene> pictures, FrameStats& stats, const FrameOptions& options) {
     const Stopwatch watch;
     for (TileScene& tiles : pictures)
         tiles.casters = &scene.mesh;
-    if (!give_sky(scene, exec, cache, pictures, cancel)) return false;
+    if (!give_sky(scene, exec, cache, pictures, options.cancel)) return false;
     // A scene without geometry has nothing to cast or to receive.
     if (cache.bounds.empty()) return true;
-    const ShadowWork work{scene, (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats,
-                          cancel};
+    const ShadowWork work{
+        scene,         (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats, options,
+        options.cancel};
     plan_shadows(work);
     stats.resolution_s = watch.seconds();
     if (!build_shadows(work)) return false;

@@ -33,17 +33,16 @@ bool settle_resolutions(const std::vector<std::optional<FoundResolution>>& found
                         std::vector<SceneLight>& lights);
 
 /// Makes or keeps the shadows of every light and gives them to the lights of all `pictures`, which share
-/// them. Adds to `stats`. False when `cancel` was set before they were done. Throws LimitError when
-/// resolutions that were found make the frame too large, or trees take more memory than is left after
-/// `other_bytes`, and what shadow caches throw. What was built for a picture
-/// (scope "frame") is kept while camera and size stay: where more than these decides what pictures show,
-/// forget_picture_shadows() first.
+/// them. Adds to `stats`. `options`: what the frame will hold beside them, and options.cancel: false when it
+/// was set before they were done. Throws LimitError when resolutions that were found make the frame too
+/// large, or trees take more memory than is left after `other_bytes`, and what shadow caches throw. What was
+/// built for a picture (scope "frame") is kept while camera and size stay: where more than these decides what
+/// pictures show, forget_picture_shadows() first.
 bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
-                     std::span<TileScene> pictures, FrameStats& stats,
-                     const std::atomic<bool>* cancel = nullptr);
+                     std::span<TileScene> pictures, FrameStats& stats, const FrameOptions& options = {});
 inline bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& exec, FrameCache& cache,
-                            TileScene& tiles, FrameStats& stats, const std::atomic<bool>* cancel = nullptr) {
-    return prepare_shadows(scene, other_bytes, exec, cache, std::span(&tiles, 1), stats, cancel);
+                            TileScene& tiles, FrameStats& stats, const FrameOptions& options = {}) {
+    return prepare_shadows(scene, other_bytes, exec, cache, std::span(&tiles, 1), stats, options);
 }
 
 /// Forgets the shadows that were built for one picture's lookups; others stay.

@@ -148,7 +148,7 @@ bool render_eyes(const Scene& scene, const MovedMesh& moved, EyePositions positi
 
     // What the pictures look up follows from the edits, not from the camera alone.
     forget_picture_shadows(cache.frame);
-    if (!prepare_shadows(scene, other_bytes, exec, cache.frame, pictures, shared, wanted.channels.cancel))
+    if (!prepare_shadows(scene, other_bytes, exec, cache.frame, pictures, shared, wanted.channels))
         return false;
     for (const LightShadow& shadow : cache.frame.shadows)
         shared.lights.push_back(shadow.stats);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/frame/memory.h"
 #include "app/glare/glare_margin.h"
 #include "app/glare/lens.h"
 #include "core/count_text.h"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "app/frame/memory.h"
 #include "app/frame/shadow_text.h"
 #include "app/frame/sun_hours_text.h"
 #include "core/count_text.h"

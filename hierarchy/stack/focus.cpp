@@ -238,7 +238,8 @@ double parallax_texels(const Mesh& mesh, const FocusedViews& views) {
     double longest = 0;
     for (const Vec3f& v : mesh.positions) {
         const Vec3d p = to_double(v);
-        const double a = row_at(views.frame.a, p), b = row_at(views.frame.b, p), h = row_at(views.frame.h, p);
+        const auto along = [&](const double(&m)[4]) { return m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]; };
+        const double a = along(views.frame.a), b = along(views.frame.b), h = along(views.frame.h);
         if (h >= views.frame.near_h) continue;
         Vec2d last;
         for (std::size_t k = 0; k < views.slices.size(); ++k) {

@@ -56,7 +56,8 @@ std::uint64_t order_of(const TriangleRecord& t, std::int32_t steps) {
         return static_cast<std::uint32_t>(middle >> (28 - cell_bits));
     };
     const std::uint64_t smaller = static_cast<std::uint64_t>((1 << class_bits) - 1 - size);
-    return smaller << (2 * cell_bits) | morton_code(cell(b.x_low, b.x_high), cell(b.y_low, b.y_high));
+    return smaller << (2 * cell_bits) |
+           morton_code<cell_bits>(cell(b.x_low, b.x_high), cell(b.y_low, b.y_high));
 }
 
 /// Index and order of every record, sorted: by chunks of records, each of whose digits are counted alone, so

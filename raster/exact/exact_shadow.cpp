@@ -88,7 +88,7 @@ void ExactWork::sort_samples(int views) {
             return static_cast<std::uint32_t>(at - low) >> shift;
         };
         key_[i] = static_cast<std::uint32_t>(std::uint64_t{view_[i]} << (2 * cell_bits) |
-                                             morton_code(cell(x_[i], x0), cell(y_[i], y0)));
+                                             morton_code<cell_bits>(cell(x_[i], x0), cell(y_[i], y0)));
         order_[i] = static_cast<std::uint32_t>(i);
     }
     sort_digit(0);

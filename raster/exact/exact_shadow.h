@@ -60,9 +60,10 @@ class ExactWork {
 };
 
 /// Where sample k of `count` of pixel (x, y) of a tile stands among the tile's points: along a Morton curve
-/// of the pixels, a pixel's samples together, so that neighbours in the list are neighbours in the picture.
+/// of the pixels (x, y < 256), a pixel's samples together, so that neighbours in the list are neighbours in
+/// the picture.
 constexpr int exact_point_index(int k, int count, int x, int y) {
-    return static_cast<int>(morton_code(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))) *
+    return static_cast<int>(morton_code<8>(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))) *
                count +
            k;
 }

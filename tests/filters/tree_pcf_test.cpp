@@ -104,7 +104,7 @@ TEST_P(TreePcf, EqualsTheDenseMapAtEveryAlignmentAndBorder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(DenseKernels, TreePcf,
-                         testing::Combine(testing::Values(4, 32), testing::Values(1, 3, 5)));
+                         testing::Combine(testing::Values(4, 8, 32), testing::Values(1, 3, 5)));
 
 class TreePcfKernels : public testing::TestWithParam<int> {};
 

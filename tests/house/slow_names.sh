@@ -23,6 +23,6 @@ while read -r program filter _; do
         "$path" --gtest_list_tests "--gtest_filter=$pattern" | grep -q '^  ' && continue
         echo "$program has no test $pattern"
         status=1
-    done < <(tr ':' '\n' <<<"${filter#-}")
+    done < <(tr -s ':-' '\n' <<<"${filter#-}")
 done < <(grep -hE '^[a-z]' "$1/tests/slow.txt" "$1/tests/house/sanitized.txt")
 exit $status
