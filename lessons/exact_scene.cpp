@@ -107,10 +107,14 @@ double SeenPoints::facing(const ExactScene& scene, std::size_t i) const {
 }
 
 SeenPoints seen_points(const ExactScene& scene, int finer, const Exec& exec) {
-    SeenPoints seen;
+    SeenPoints seen = seen_points(scene.mesh, scene.camera, finer * exact_width, finer * exact_height, exec);
     seen.finer = finer;
-    seen.blocks =
-        seen_surfaces(SeenMesh(scene.mesh), scene.camera, finer * exact_width, finer * exact_height, exec);
+    return seen;
+}
+
+SeenPoints seen_points(const Mesh& mesh, const Camera& camera, int width, int height, const Exec& exec) {
+    SeenPoints seen;
+    seen.blocks = seen_surfaces(SeenMesh(mesh), camera, width, height, exec);
     const std::size_t count = seen.blocks.size() * block_samples;
     for (int k = 0; k < 3; ++k)
         seen.p[k].resize(count);
@@ -118,7 +122,7 @@ SeenPoints seen_points(const ExactScene& scene, int finer, const Exec& exec) {
     for (std::size_t i = 0; i < seen.blocks.size(); ++i) {
         const SurfaceBlock& b = seen.blocks[i];
         const std::size_t to = i * block_samples;
-        exact_positions(b, scene.mesh, scene.camera.eye, seen.p[0].data() + to, seen.p[1].data() + to,
+        exact_positions(b, mesh, camera.eye, seen.p[0].data() + to, seen.p[1].data() + to,
                         seen.p[2].data() + to, seen.face.data() + to);
         seen.g[0].insert(seen.g[0].end(), b.gx, b.gx + block_samples);
         seen.g[1].insert(seen.g[1].end(), b.gy, b.gy + block_samples);

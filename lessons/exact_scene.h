@@ -43,6 +43,8 @@ struct SeenPoints {
     double facing(const ExactScene& scene, std::size_t i) const;
 };
 SeenPoints seen_points(const ExactScene& scene, int finer, const Exec& exec);
+/// Of any scene, one sample a pixel.
+SeenPoints seen_points(const Mesh& mesh, const Camera& camera, int width, int height, const Exec& exec);
 
 /// The sun's map, as frames make it: fitted to what casts shadows.
 ShadowMap map_of(const ExactScene& scene, int texels, const Exec& exec);

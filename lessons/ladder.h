@@ -31,7 +31,9 @@ constexpr int lesson_width = 1600, lesson_height = 1000;
     LESSON(lesson_17_vertices, "Vertices follow the map", "triangles cut where the map bends, moved half a disparity for either eye") \
     LESSON(lesson_18_kept_field, "A far field up to date", "a disc moves over an iris: the difference is added, its drift is counted, its price compared") \
     LESSON(lesson_19_exact_shadows, "The sample is the texel", "shadows of the camera's own samples, without a map: edges, planes, and what is uncertain") \
-    LESSON(lesson_20_penumbrae, "Penumbrae", "a light with a size as many without: where they are, what too few show, what all at once cost")
+    LESSON(lesson_20_penumbrae, "Penumbrae", "a light with a size as many without: where they are, what too few show, what all at once cost") \
+    LESSON(lesson_21_stack, "A stack of shadow maps", "a lamp's maps share an octree, and one descent asks many of them at once") \
+    LESSON(lesson_22_sky, "The sky as many suns", "skylight as a sum of hard shadows, against a street's formula; why shade is blue")
 // clang-format on
 
 #define OBSCURA_DECLARE_LESSON(draw, title, summary) Image<Rgb8> draw(const Exec& exec);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "core/scalar_lanes.h"
+#include "hierarchy/stack/answered_runs.h"
 #include "hierarchy/stack/stack_query.h"
 
 namespace obscura::ref {
@@ -183,21 +184,46 @@ class Octree {
     std::uint32_t header_words_;
 };
 
+/// Where the lit samples of a point are counted.
+struct Tally {
+    std::uint16_t* lit = nullptr;
+    std::size_t stride = 0;
+    int exponent = 0;
+
+    std::uint16_t& part(std::int32_t map) const {
+        return lit[static_cast<std::size_t>(map >> exponent) * stride];
+    }
+    /// Samples [first, first + maps), all lit or all dark.
+    void answer(std::int32_t first, std::int32_t maps, bool is_lit) const {
+        while (is_lit && maps > 0) {
+            const std::int32_t end = ((first >> exponent) + 1) << exponent,
+                               here = first + maps < end ? maps : end - first;
+            part(first) = static_cast<std::uint16_t>(part(first) + here);
+            first += here;
+            maps -= here;
+        }
+    }
+};
+
+/// The answers themselves.
+struct Answers {
+    std::vector<AnsweredRun>& runs;
+    void answer(std::int32_t first, std::int32_t maps, bool is_lit) const {
+        runs.push_back({first, maps, is_lit});
+    }
+};
+
 class Query {
   public:
     Query(const StackLookup& stack, StackWork& work)
         : stack_(stack), octree_(stack.code), size_(1 << stack.code.shape.map_levels), work_(work) {}
 
-    /// Of each run of 2^part_exponent maps, into lit[run * stride].
-    void all(const StackPoints& points, std::size_t i, int part_exponent, std::size_t stride,
-             std::uint16_t* lit) {
-        lit_ = {lit, stride, part_exponent};
-        for (std::int32_t first = 0; first < std::int32_t{1} << stack_.code.shape.slice_levels;
-             first += std::int32_t{1} << part_exponent)
-            lit_.part(first) = 0;
+    /// All maps of point i.
+    template <class To>
+    void all(const StackPoints& points, std::size_t i, const To& to) {
         const Receiver p(stack_, points, i);
-        if (p.before_near) return lit_.add(0, stack_.slices);
-        run(p, 1, stack_.code.shape.slice_levels, octree_.root());
+        if (p.before_near) return to.answer(0, stack_.slices, true);
+        run(p, 1, stack_.code.shape.slice_levels, octree_.root(), to);
     }
 
     int subset(const StackPoints& points, std::size_t i, int samples) {
@@ -210,27 +236,6 @@ class Query {
     }
 
   private:
-    /// Where the lit samples of a point are counted.
-    struct Tally {
-        std::uint16_t* lit = nullptr;
-        std::size_t stride = 0;
-        int exponent = 0;
-
-        std::uint16_t& part(std::int32_t map) const {
-            return lit[static_cast<std::size_t>(map >> exponent) * stride];
-        }
-        /// Samples [first, first + maps).
-        void add(std::int32_t first, std::int32_t maps) const {
-            while (maps > 0) {
-                const std::int32_t end = ((first >> exponent) + 1) << exponent,
-                                   here = first + maps < end ? maps : end - first;
-                part(first) = static_cast<std::uint16_t>(part(first) + here);
-                first += here;
-                maps -= here;
-            }
-        }
-    };
-
     int single(const Receiver& p, std::int32_t k) {
         ++work_.lookups;
         const SliceRange& map = stack_.ranges[(std::int32_t{1} << stack_.code.shape.slice_levels) + k];
@@ -244,7 +249,8 @@ class Query {
     }
 
     /// Run i of 2^exponent maps; the descent of the run that it is half of stands at `at`.
-    void run(const Receiver& p, std::int32_t i, int exponent, Place at) {
+    template <class To>
+    void run(const Receiver& p, std::int32_t i, int exponent, Place at, const To& to) {
         const std::int32_t first = (i << exponent) - (std::int32_t{1} << stack_.code.shape.slice_levels);
         std::int32_t maps = stack_.slices - first;
         if (maps <= 0) return;
@@ -253,20 +259,20 @@ class Query {
         ++work_.lookups;
         const SliceRange& range = stack_.ranges[i];
         const Seen s = see(p, range, size_);
-        if (s.outside) return lit_.add(first, maps);
-        if (s.inside && s.away) return;
+        if (s.outside) return to.answer(first, maps, true);
+        if (s.inside && s.away) return to.answer(first, maps, false);
         if (s.inside) {
             while (!at.ended && at.height > 0 && step(at, s, first, first + length - 1)) {
             }
             if (at.ended && s.facing) {
                 const float value = octree_.value(at);
-                if (exponent == 0) return lit_.add(first, compared_depth(p, range, s) <= value ? 1 : 0);
-                if (s.deepest <= value) return lit_.add(first, maps);
-                if (value < s.nearest) return;
+                if (exponent == 0) return to.answer(first, maps, compared_depth(p, range, s) <= value);
+                if (s.deepest <= value) return to.answer(first, maps, true);
+                if (value < s.nearest) return to.answer(first, maps, false);
             }
         }
-        run(p, 2 * i, exponent - 1, at);
-        run(p, 2 * i + 1, exponent - 1, at);
+        run(p, 2 * i, exponent - 1, at, to);
+        run(p, 2 * i + 1, exponent - 1, at, to);
     }
 
     /// Looks at the children that hold a part of the box in maps [first, last]. True when the descent went
@@ -306,7 +312,6 @@ class Query {
     Octree octree_;
     std::int32_t size_;
     StackWork& work_;
-    Tally lit_;
 };
 
 }  // namespace
@@ -322,8 +327,20 @@ void lit_of_parts(const StackLookup& stack, const StackPoints& points, std::int3
     int exponent = stack.code.shape.slice_levels;
     for (std::int32_t of = parts; of > 1; of /= 2)
         --exponent;
-    for (std::size_t i = 0; i < points.count; ++i)
-        query.all(points, i, exponent, points.count, lit + i);
+    for (std::size_t i = 0; i < points.count; ++i) {
+        const Tally tally{lit + i, points.count, exponent};
+        for (std::int32_t first = 0; first < std::int32_t{1} << stack.code.shape.slice_levels;
+             first += std::int32_t{1} << exponent)
+            tally.part(first) = 0;
+        query.all(points, i, tally);
+    }
+}
+
+std::vector<AnsweredRun> answered_runs(const StackLookup& stack, const StackPoints& points, std::size_t i,
+                                       StackWork& work) {
+    std::vector<AnsweredRun> runs;
+    Query(stack, work).all(points, i, Answers{runs});
+    return runs;
 }
 
 void lit_of_subset(const StackLookup& stack, const StackPoints& points, int samples, std::uint16_t* lit,

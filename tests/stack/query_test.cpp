@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "hierarchy/stack/answered_runs.h"
 #include "hierarchy/stack/encode.h"
 #include "tests/hierarchy/tree_compare.h"
 #include "tests/stack/stack_oracle.h"
@@ -104,6 +105,36 @@ TEST(StackQuery, EveryInstructionSetAgreesWithTheReference) {
                     ASSERT_EQ(share[i], static_cast<float>(all[i]) / 32.0f);
             }
         }
+    }
+}
+
+/// The runs that answered are all maps, in order, at the steps of all; several maps each, mostly.
+TEST(StackQuery, AnsweredRunsAreAllMapsInOrder) {
+    const Vec3d eye{-1, 2, 5};
+    for (const auto& [lamp, slices] : {std::pair{Lamp::level, 64}, {Lamp::tilted, 32}, {Lamp::path, 39}}) {
+        const Mesh mesh = lit::scene(4, true);
+        const ShadowStack stack = build_stack(
+            mesh, focused_views(mesh, lit::samples_of(lamp, slices), lit::focus(128)), {}, Exec{});
+        const StackLookup lookup = stack_lookup(stack, eye);
+        const lit::Points points = lit::drawn_points(mesh, eye, 2000, 7);
+        StackWork work, own;
+        const auto all = all_of(lookup, points.view(), Isa::ref, work);
+        std::size_t answers = 0;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            int next = 0, lit = 0;
+            for (const AnsweredRun& run : ref::answered_runs(lookup, points.view(), i, own)) {
+                ASSERT_EQ(run.first, next);
+                ASSERT_GT(run.maps, 0);
+                next += run.maps;
+                lit += run.lit ? run.maps : 0;
+                ++answers;
+            }
+            ASSERT_EQ(next, lookup.slices);
+            ASSERT_EQ(lit, all[i]);
+        }
+        EXPECT_EQ(own.nodes, work.nodes);
+        EXPECT_EQ(own.lookups, work.lookups);
+        EXPECT_LT(answers * 2, all.size() * static_cast<std::size_t>(lookup.slices));
     }
 }
 
