@@ -53,8 +53,9 @@ struct SunHoursStats {
 /// Wall-clock seconds per stage, and exact counts.
 struct FrameStats {
     double surface_s = 0;     ///< table of surface triangles; 0 when kept
-    double shadow_s = 0;      ///< shadow maps, the next two included; near 0 when kept
-    double resolution_s = 0;  ///< of these, finding resolutions
+    double shadow_s = 0;      ///< shadow maps, the next three included; near 0 when kept
+    double sky_s = 0;         ///< of these, the sky's light and what surfaces send on of it
+    double resolution_s = 0;  ///< finding resolutions
     double needed_s = 0;      ///< and finding what the picture looks up (scope "frame")
     double setup_s = 0;       ///< triangle setup and bins of the camera
     double tiles_s = 0;       ///< visibility, surface, shadow lookups, shading, resolve

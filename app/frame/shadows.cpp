@@ -189,14 +189,16 @@ bool prepare_shadows(const Scene& scene, std::int64_t other_bytes, const Exec& e
     const Stopwatch watch;
     for (TileScene& tiles : pictures)
         tiles.casters = &scene.mesh;
-    if (!give_sky(scene, exec, cache, pictures, options.cancel)) return false;
+    const bool has_sky = give_sky(scene, exec, cache, pictures, options.cancel);
+    stats.sky_s = watch.seconds();
+    if (!has_sky) return false;
     // A scene without geometry has nothing to cast or to receive.
     if (cache.bounds.empty()) return true;
     const ShadowWork work{
         scene,         (scene.limits.memory_mib << 20) - other_bytes, exec, cache, pictures, stats, options,
         options.cancel};
     plan_shadows(work);
-    stats.resolution_s = watch.seconds();
+    stats.resolution_s = watch.seconds() - stats.sky_s;
     if (!build_shadows(work)) return false;
     for (TileScene& tiles : pictures)
         give_to_tiles(work, tiles);

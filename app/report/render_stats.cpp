@@ -23,6 +23,7 @@ void put_seconds(JsonWriter& json, const FrameReport& frame) {
     json.key("seconds").begin_object();
     json.member("surface", s.surface_s).member("setup", s.setup_s).member("shadow", s.shadow_s);
     json.member("shadow_resolution", s.resolution_s).member("shadow_needed", s.needed_s);
+    json.member("shadow_sky", s.sky_s);
     json.member("tiles", s.tiles_s);
     json.member("glare", s.glare ? s.glare->total_s : 0.0).member("psf", s.glare ? s.glare->psf_s : 0.0);
     json.member("render", s.total_s).member("write", frame.write_s);

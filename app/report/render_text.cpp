@@ -24,6 +24,8 @@ std::string stages_text(const FrameReport& report) {
         out += fmt::format("  of shadow maps: resolutions {:.3f} s, finding what is looked up {:.3f} s\n",
                            s.resolution_s, s.needed_s);
     }
+    if (s.sky_s > 0.0005)
+        out += fmt::format("  of shadow maps: the sky, and what surfaces send on {:.3f} s\n", s.sky_s);
     for (const LightShadowStats& light : s.lights)
         out += shadow_text(light);
     return out;
