@@ -35,7 +35,7 @@ const std::vector<Bench>& all_benches() {
          "dense and compressed maps against exact rays",
          "scenes",
          {"meshes", "cities", "terrain"},
-         {"times", "accuracy", "wrong-pixels", "sizes", "exact", "soft", "stack", "trees"},
+         {"times", "accuracy", "wrong-pixels", "sizes", "exact", "soft", "soft-error", "stack", "trees"},
          [](const BenchOptions& options) { return bench_shadows(options, all_contestants()); }},
         {"diffraction", "far and near fields", "apertures", {"apertures"}, {}, bench_diffraction},
         {"stereo", "solvers of disparity maps", "hard cases", {}, {}, bench_stereo},

@@ -11,6 +11,7 @@
 
 #include "app/frame/shadows.h"
 #include "bench/embree/embree_scene.h"
+#include "bench/harness/run_times.h"
 #include "bench/shadows/exact_session.h"
 #include "core/parallel.h"
 #include "raster/exact/casters.h"
@@ -41,6 +42,7 @@ struct PacketState {
     float offset_m = 0;  ///< 8 units in the last place of the largest coordinate
     EmbreeDevice device;
     std::optional<EmbreeScene> embree;
+    double hierarchy_ms = 0;
 
     PacketState(const Scene& scene, const FrameSamples& samples_, const Exec& exec_)
         : samples(samples_), exec(exec_), mesh(casting(scene.mesh)), device(exec_.threads) {
@@ -63,7 +65,7 @@ struct PacketState {
         for (const Vec3f& p : mesh.positions)
             largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
         offset_m = 8 * largest * 0x1p-23f;
-        embree.emplace(device, mesh, RTC_SCENE_FLAG_NONE);
+        hierarchy_ms = milliseconds_of([&] { embree.emplace(device, mesh, RTC_SCENE_FLAG_NONE); });
     }
 };
 
@@ -158,8 +160,9 @@ ExactFindings findings_of(const PacketState& state) {
 
 TracedSamples trace_samples(const Scene& scene, const FrameSamples& samples, const Exec& exec) {
     PacketState state(scene, samples, exec);
-    parallel_for(samples.tiles, exec, [&](std::size_t t) { trace_tile(state, t); });
-    return {std::move(state.asking), std::move(state.lit)};
+    const double trace_ms = milliseconds_of(
+        [&] { parallel_for(samples.tiles, exec, [&](std::size_t t) { trace_tile(state, t); }); });
+    return {std::move(state.asking), std::move(state.lit), state.hierarchy_ms, trace_ms};
 }
 
 Session open_exact_rays(const Scene& scene, const FrameSamples& samples, const Exec& exec) {

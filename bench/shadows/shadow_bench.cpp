@@ -9,6 +9,7 @@
 #include "bench/shadows/exact_bench.h"
 #include "bench/shadows/report.h"
 #include "bench/shadows/soft_bench.h"
+#include "bench/shadows/soft_error.h"
 #include "bench/shadows/stack_bench.h"
 #include "bench/shadows/sweep_scenes.h"
 #ifdef OBSCURA_HAS_EMBREE
@@ -87,6 +88,10 @@ int bench_shadows(const BenchOptions& options, const std::vector<Contestant>& pe
     if (options.part == "soft") {
         make_output_folder(options);
         return bench_soft(options);
+    }
+    if (options.part == "soft-error") {
+        make_output_folder(options);
+        return bench_soft_error(options);
     }
     if (options.part == "stack") {
         make_output_folder(options);

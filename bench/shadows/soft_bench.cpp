@@ -26,39 +26,11 @@
 namespace obscura {
 namespace {
 
-/// A light with a size, put in the place of a scene's sun.
-struct SoftSubject {
-    const char* name;
-    std::function<void(const Scene&, Light&)> shape;
-};
-
 /// The largest extent of what is seen, metres.
 double extent_of(const Mesh& mesh) {
     const Bounds box = bounds_of(mesh);
     const Vec3d size = box.high - box.low;
     return std::max({size.x, size.y, size.z});
-}
-
-const std::vector<SoftSubject>& soft_subjects() {
-    static const std::vector<SoftSubject> all = {
-        {"a disc of 0.53 degrees", [](const Scene&, Light& l) { l.angular_diameter_deg = 0.53; }},
-        {"a disc of 10 degrees", [](const Scene&, Light& l) { l.angular_diameter_deg = 10; }},
-        {"a panel",
-         [](const Scene& scene, Light& l) {
-             // As far off as the scene is large, a tenth as wide.
-             const Bounds box = bounds_of(scene.mesh);
-             const double size = extent_of(scene.mesh);
-             l.kind = LightKind::area;
-             l.direction = normalize(l.direction);
-             l.position = (box.low + box.high) * 0.5 - l.direction * size;
-             const Vec3d up = std::fabs(l.direction.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
-             l.across = normalize(cross(l.direction, up));
-             l.width_m = l.height_m = 0.1 * size;
-             l.near_m = 0.01 * size;
-             l.range_m = 10 * size;
-         }},
-    };
-    return all;
 }
 
 struct Rival {
@@ -261,6 +233,28 @@ void compare_all(const ShadowRecipe& recipe, const BenchOptions& options, std::v
 #endif
 
 }  // namespace
+
+const std::vector<SoftSubject>& soft_subjects() {
+    static const std::vector<SoftSubject> all = {
+        {"a disc of 0.53 degrees", [](const Scene&, Light& l) { l.angular_diameter_deg = 0.53; }},
+        {"a disc of 10 degrees", [](const Scene&, Light& l) { l.angular_diameter_deg = 10; }},
+        {"a panel",
+         [](const Scene& scene, Light& l) {
+             // As far off as the scene is large, a tenth as wide.
+             const Bounds box = bounds_of(scene.mesh);
+             const double size = extent_of(scene.mesh);
+             l.kind = LightKind::area;
+             l.direction = normalize(l.direction);
+             l.position = (box.low + box.high) * 0.5 - l.direction * size;
+             const Vec3d up = std::fabs(l.direction.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+             l.across = normalize(cross(l.direction, up));
+             l.width_m = l.height_m = 0.1 * size;
+             l.near_m = 0.01 * size;
+             l.range_m = 10 * size;
+         }},
+    };
+    return all;
+}
 
 double SoftRow::ours_ms() const {
     return total_ms(order_ms, lookup_ms);

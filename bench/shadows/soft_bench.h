@@ -3,6 +3,7 @@
 // as many of Embree's rays.
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,13 @@
 #include "bench/shadows/scenes.h"
 
 namespace obscura {
+
+/// A light with a size, put in the place of a scene's sun.
+struct SoftSubject {
+    const char* name;
+    std::function<void(const Scene&, Light&)> shape;
+};
+const std::vector<SoftSubject>& soft_subjects();
 
 struct SoftRow {
     std::string scene, light;

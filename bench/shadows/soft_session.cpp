@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "bench/harness/run_times.h"
 #include "core/parallel.h"
 #include "raster/exact/caster_pool.h"
 #include "raster/exact/exact_shadow.h"
@@ -124,10 +125,14 @@ Session open_soft(const Scene& scene, const FrameSamples& samples, int points, c
     return session;
 }
 
-LitOfPoints soft_shadows(const Scene& scene, const FrameSamples& samples, int points, const Exec& exec) {
-    SoftState state(scene, samples, points, exec);
-    state.look_up();
-    return state.lit();
+LitOfPoints soft_shadows(const Scene& scene, const FrameSamples& samples, int points, const Exec& exec,
+                         SoftTimes* times) {
+    std::optional<SoftState> state;
+    SoftTimes took;
+    took.order_ms = milliseconds_of([&] { state.emplace(scene, samples, points, exec); });
+    took.lookup_ms = milliseconds_of([&] { state->look_up(); });
+    if (times != nullptr) *times = took;
+    return state->lit();
 }
 
 Scene with_points(const Scene& scene, int points) {

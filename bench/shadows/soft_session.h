@@ -20,8 +20,14 @@ using LitOfPoints = std::vector<std::vector<std::uint32_t>>;
 /// `scene` and `samples` outlive the session.
 Session open_soft(const Scene& scene, const FrameSamples& samples, int points, const Exec& exec);
 
-/// What open_soft() looks up.
-LitOfPoints soft_shadows(const Scene& scene, const FrameSamples& samples, int points, const Exec& exec);
+/// Wall-clock milliseconds of the two jobs of a session.
+struct SoftTimes {
+    double order_ms = 0, lookup_ms = 0;
+};
+
+/// What open_soft() looks up; of one run of each job, its time.
+LitOfPoints soft_shadows(const Scene& scene, const FrameSamples& samples, int points, const Exec& exec,
+                         SoftTimes* times = nullptr);
 
 /// The scene with lights[0] as so many without size.
 Scene with_points(const Scene& scene, int points);
