@@ -194,12 +194,10 @@ std::string soft_error_markdown(const std::vector<SoftErrorRow>& rows, const Sof
         "\n![chart](shadows_soft_error.svg)\n\nA picture of {} x {} with one sample a pixel. Error: root "
         "mean "
         "square difference of the share of the light that reaches a sample, from that of {} points by exact "
-        "shadows. The stack has maps of {} x {} texels of the same points that exact shadows ask; its own "
-        "error "
-        "is what is left when points are many. Built: what casts shadows put in order, the stack, Embree's "
-        "hierarchy; all but the first can be kept from frame to frame, and so can the order of parallel "
-        "light. "
-        "One run of each, milliseconds.\n\n"
+        "shadows. The stack has maps of {} x {} texels of the same points that exact shadows ask; what its "
+        "texels get wrong is left when points are many. Built: what casts shadows put in order (of a panel's "
+        "points within asked), the stack, Embree's hierarchy; while scene and light stand still, all can be "
+        "kept. One run of each, milliseconds.\n\n"
         "| scene | light | points | method | error | built | asked | MB "
         "|\n|---|---|--:|---|--:|--:|--:|--:|\n",
         plan.picture.width, plan.picture.height, plan.reference_points, plan.texels, plan.texels);
@@ -216,13 +214,13 @@ PanelChart soft_error_chart(const std::vector<SoftErrorRow>& rows, const SoftErr
     PanelChart chart;
     chart.style_of = soft_style;
     chart.title = "Error of a light's share against time";
-    chart.note =
-        fmt::format("{} x {} samples; points from left to right: {}. Hollow: the stack is there already.",
-                    plan.picture.width, plan.picture.height, fmt::join(plan.points, ", "));
+    chart.note = fmt::format(
+        "{} x {} samples; points from left to right: {}. Hollow: lookups alone, the stack is kept.",
+        plan.picture.width, plan.picture.height, fmt::join(plan.points, ", "));
     chart.x_label = "ms for a frame";
     chart.y_label = "rms error of the share";
     chart.x_tics = "set format x '%g'";
-    chart.one_key = true;
+    chart.key_strip = true;
     for (const SoftErrorRow& row : rows) {
         const std::string name = row.scene + ", " + row.light;
         if (chart.panels.empty() || chart.panels.back().title != name) {
