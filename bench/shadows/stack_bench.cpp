@@ -220,6 +220,9 @@ StackRow measure_stack(const ShadowRecipe& recipe, const StackSubject& subject, 
     row.subject = subject;
     StackBuildParams params;
     params.tree.count_quadtrees = true;
+    // Octrees that are tried grow side by side: of the paper's large stacks, the cube and those that were
+    // best.
+    if (subject.resolution * subject.maps >= 1 << 19) params.tree.anisotropies = {0, -3, -4, -5};
     StackTreeStats stats;
     ShadowStack stack;
     const Stopwatch watch;
