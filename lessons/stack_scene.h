@@ -90,8 +90,8 @@ struct NodesRead {
 NodesRead nodes_read(const StackLookup& stack, const LampReceivers& receivers, const Exec& exec);
 double mean_of(const std::vector<double>& values);
 
-/// Columns of the tube's row, in texels, where the floor sees none of the lamp, a quarter to three, all of it;
-/// and of a point raised_m above it that the middle map shows beside the second.
+/// Columns of the tube's row, in texels, where the floor sees none of the lamp, a quarter to three, all of
+/// it; and of a point raised_m above it that the middle map shows beside the second.
 constexpr double raised_m = 0.25;
 struct TellingColumns {
     double dark = 0, partly = 0, lit = 0, raised = 0;

@@ -68,8 +68,8 @@ std::string stack_markdown(const std::vector<StackRow>& rows) {
         if (!row.problem.empty()) continue;
         const StackSubject& s = row.subject;
         fmt::format_to(
-            Out(text), "| {} | {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {} | {:.2f} | {:.1f} |\n", row.scene,
-            s.resolution, s.maps, s.light_percent, aim_name(s.aim),
+            Out(text), "| {} | {} | {} | {} | {} | {} | {:.3f} | {:.3f} | {} | {:.2f} | {:.1f} |\n",
+            row.scene, s.resolution, s.maps, s.light_percent, aim_name(s.aim),
             s.aim == StackAim::apart ? std::string("-") : fmt::format("{:.2f}", row.parallax_texels),
             cube_ratio(row), row.ratio(), row.anisotropy, static_cast<double>(row.bytes) * 1e-6, row.build_s);
     }
