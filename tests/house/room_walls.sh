@@ -33,7 +33,7 @@ app/pair         app/frame
 app/report       app/pair lessons/drawing
 app/cli          app/report
 lessons/drawing  core
-lessons          optics stereo stereo/thesis scenes raster/exact lessons/drawing
+lessons          core/sky optics stereo stereo/thesis scenes raster/exact hierarchy/stack lessons/drawing
 bench/embree     core
 bench/harness    app/scene
 bench/raster     app/frame bench/harness bench/embree
