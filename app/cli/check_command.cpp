@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,7 @@
 #include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
+#include "app/scene/read_files.h"
 #include "app/scene/rules_shadow.h"
 #include "app/scene/stereo_settings.h"
 #include "core/count_text.h"
@@ -274,7 +276,9 @@ std::string memory_text(const char* of, const MemoryEstimate& e, const Scene& sc
 
 std::string check_report(const CheckOptions& options) {
     const SceneDocument document = read_scene(options.scene, options.overrides);
-    const FileAccess access{document.folder, options.allowed_paths, options.allow_missing};
+    const FileAccess access{document.folder, options.allowed_paths, options.allow_missing,
+                            std::make_shared<ReadFiles>()};
+    access.read->add(options.scene);
     Scene scene = load_scene(document, access);
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
