@@ -229,7 +229,7 @@ TEST(CheckCommand, RefusesWhatRenderingRefuses) {
     const std::string before = "memory    about ";
     const int picture = std::stoi(report.substr(report.find(before) + before.size()));
     EXPECT_EQ(check("plain.toml", picture + 60), "ok");
-    EXPECT_EQ(check("channels.toml", picture + 60).rfind("the frame: needs about ", 0), 0u);
+    EXPECT_NE(check("channels.toml", picture + 60).find("channels.toml: needs about "), std::string::npos);
     EXPECT_EQ(check("channels.toml", picture + 180), "ok");
     // `render` makes the picture where there is no room for a pair.
     const auto pair = [&](const char* limit) {
