@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <vector>
 
 #include "app/cli/flags.h"
 #include "app/cli/messages.h"
 #include "app/cli/scene_flags.h"
+#include "app/cli/scene_run.h"
 #include "app/frame/channels.h"
 #include "app/frame/frame_checks.h"
 #include "app/frame/load_scene.h"
@@ -29,7 +29,6 @@
 #include "app/report/lens_text.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
-#include "app/scene/read_files.h"
 #include "app/scene/rules_shadow.h"
 #include "app/scene/stereo_settings.h"
 #include "core/count_text.h"
@@ -291,9 +290,11 @@ std::string memory_text(const char* of, const MemoryEstimate& e, const Scene& sc
 
 std::string check_report(const CheckOptions& options) {
     const SceneDocument document = read_scene(options.scene, options.overrides);
-    const FileAccess access{document.folder, options.allowed_paths, options.allow_missing,
-                            std::make_shared<ReadFiles>()};
-    access.read->add(options.scene);
+    SceneRun run;
+    run.scene = options.scene;
+    run.allowed_paths = options.allowed_paths;
+    run.allow_missing = options.allow_missing;
+    const FileAccess access = recording_access(run, document);
     Scene scene = load_scene(document, access);
     const FrameOptions channels = channels_of(scene.outputs);
     check_frames(document, channels, scene);
