@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "app/scene/aperture_file.h"
@@ -45,19 +46,32 @@ void add_note(Builder& b, const std::string& note) {
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
 }
 
+/// Decodes and adds a texture of 8 or 16 bits a sample.
+template <class Pixel>
+void add_texture(Builder& b, const Image<Pixel>& image, const std::string& shown_name) {
+    using Sample = decltype(Pixel::a);
+    const bool clear = std::any_of(image.pixels.begin(), image.pixels.end(),
+                                   [](Pixel p) { return p.a < std::numeric_limits<Sample>::max(); });
+    if (clear) add_note(b, fmt::format("texture {} is transparent in places; drawn opaque", shown_name));
+    b.texture_memory += texture_bytes(image.width, image.height);
+    b.scene.textures.push_back(make_texture(shown_name, image.view()));
+}
+
 /// Index of a texture, which is decoded when it is met for the first time.
 std::int32_t texture_index(Builder& b, const std::filesystem::path& file, const std::string& shown_name) {
     if (const auto known = b.textures.find(file); known != b.textures.end()) return known->second;
     const std::string bytes = read_file(file, largest_texture_file);
     ImageFileLimits limits;
     limits.max_side_px = b.limits.texture_px;
-    // A pixel has 4 bytes in the file's image, and 16 as linear floats with their mip chain.
-    limits.max_bytes = ((b.limits.texture_mib << 20) - b.texture_memory) / 4;
-    const Image<Rgba8> image = decode_png(bytes, shown_name, limits);
-    if (std::any_of(image.pixels.begin(), image.pixels.end(), [](Rgba8 p) { return p.a < 255; }))
-        add_note(b, fmt::format("texture {} is transparent in places; drawn opaque", shown_name));
-    b.texture_memory += texture_bytes(image.width, image.height);
-    b.scene.textures.push_back(make_texture(shown_name, image.view()));
+    // A pixel has 4 or 8 bytes in the file's image, and 16 as linear floats with their mip chain.
+    const std::int64_t left = (b.limits.texture_mib << 20) - b.texture_memory;
+    if (has_16_bit_samples(bytes)) {
+        limits.max_bytes = left / 2;
+        add_texture(b, decode_png16(bytes, shown_name, limits), shown_name);
+    } else {
+        limits.max_bytes = left / 4;
+        add_texture(b, decode_png(bytes, shown_name, limits), shown_name);
+    }
     const auto index = static_cast<std::int32_t>(b.scene.textures.size()) - 1;
     b.textures.emplace(file, index);
     return index;
