@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "app/cli/flags.h"
+#include "app/scene/texture_notes.h"
 #include "core/edges.h"
 #include "core/error.h"
 
@@ -79,6 +80,13 @@ void write_table(const InfoOptions& options, const ObjModel& model, const MeshIn
     for (const std::string& message : model.missing)
         fmt::print(out, "missing: {}\n", message);
     for (const std::string& note : model.notes)
+        fmt::print(out, "note: {}\n", note);
+    const auto file_of = [&](std::int32_t texture) {
+        const auto& files = model.texture_files;
+        return std::filesystem::path(files.at(static_cast<std::size_t>(texture))).filename().string();
+    };
+    for (const std::string& note :
+         texture_notes(options.file.string(), model.mesh, model.without_uv, model.materials, file_of))
         fmt::print(out, "note: {}\n", note);
 }
 

@@ -16,6 +16,7 @@
 #include "app/scene/obj_file.h"
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
+#include "app/scene/texture_notes.h"
 #include "app/scene/validate.h"
 #include "core/edges.h"
 #include "core/error.h"
@@ -112,7 +113,8 @@ void add_materials(Builder& b) {
 struct Part {
     Mesh mesh;
     std::vector<Material> materials;
-    Vec3d origin;  ///< what `mesh` stands about
+    Vec3d origin;                  ///< what `mesh` stands about
+    std::vector<bool> without_uv;  ///< as ObjModel has it
 };
 
 Part load_part(Builder& b, const SceneTable& table) {
@@ -133,14 +135,15 @@ Part load_part(Builder& b, const SceneTable& table) {
             const std::string& file = model.texture_files.at(static_cast<std::size_t>(material.texture));
             material.texture = texture_index(b, file, std::filesystem::path(file).filename().string());
         }
-        return Part{std::move(model.mesh), std::move(model.materials), model.origin};
+        return Part{std::move(model.mesh), std::move(model.materials), model.origin,
+                    std::move(model.without_uv)};
     });
 }
 
 Part make_part(const SceneTable& table) {
     GeneratedModel model = find_shape(text(table, "shape"))->make(table);
     analyse_topology(model.mesh);
-    return {std::move(model.mesh), std::move(model.materials), {}};
+    return {std::move(model.mesh), std::move(model.materials), {}, {}};
 }
 
 /// Points the part's triangles at the scene's materials: the mesh's `material` for all, else
@@ -251,6 +254,10 @@ void add_mesh(Builder& b, const SceneTable& table) {
                         b.document.sources[0], text(table, "id"), total, b.limits.triangles));
     }
     assign_materials(b, table, part);
+    for (const std::string& note : texture_notes(
+             fmt::format("mesh '{}'", text(table, "id")), part.mesh, part.without_uv, b.scene.materials,
+             [&](std::int32_t t) { return b.scene.textures[static_cast<std::size_t>(t)].name; }))
+        add_note(b, note);
     const MeshOptions options = mesh_options_of(table);
     set_objects(table, options.casts_shadow, part.mesh);
     if (options.flip_faces) flip_faces(part.mesh);

@@ -197,6 +197,7 @@ ObjModel build(std::string_view obj, const std::string& file, const std::string&
     model.mesh = std::move(built.mesh);
     model.origin = built.origin;
     model.topology = built.topology;
+    model.without_uv = std::move(built.without_uv);
     model.file_positions = text.positions.size();
     if (options.materials) {
         add_materials(model, text, file, around, options);
