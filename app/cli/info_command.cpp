@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
 #include "app/scene/texture_notes.h"
 #include "core/edges.h"
@@ -146,7 +147,7 @@ int run_info(const Arguments& arguments) {
         "Go on without material files and materials that are not there; without textures it always does.");
     if (!flags.parse(arguments)) return 0;
     options.file = file;
-    options.allowed_paths = {allowed.begin(), allowed.end()};
+    options.allowed_paths = folder_values("--allow-path", allowed);
     return info_command(options);
 }
 
