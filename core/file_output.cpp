@@ -128,15 +128,21 @@ fs::path directory_of(const fs::path& path) {
     return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// A name beside the target that no other write of this process uses.
+/// A name beside the target that no other write of this process uses; short, whatever the target is called.
 fs::path temporary_beside(const fs::path& path) {
     static std::atomic<unsigned> counter{0};
-    return directory_of(path) /
-           fmt::format(".{}.part.{}-{}", path.filename().string(), ::getpid(), counter++);
+    return directory_of(path) / fmt::format(".part.{}-{}", ::getpid(), counter++);
 }
 
 int create_exclusively(const fs::path& path) {
     return ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+}
+
+/// What replaces a file may be read and written by the same people. 0 or the error.
+int keep_mode(const fs::path& replaced, int fd) {
+    struct stat status {};
+    if (::stat(replaced.c_str(), &status) != 0) return errno == ENOENT ? 0 : errno;
+    return ::fchmod(fd, status.st_mode & 07777) == 0 ? 0 : errno;
 }
 
 /// 0 or the error. Never replaces a file that came into being meanwhile, unless told to.
@@ -187,6 +193,7 @@ void write_file_atomically(const fs::path& path, std::span<const std::string_vie
     Descriptor out(create_exclusively(temporary));
     if (out.fd < 0) fail(path, "cannot be created", errno);
     int error = write_parts(out.fd, parts);
+    if (!error) error = keep_mode(target, out.fd);
     if (!error && ::fsync(out.fd) != 0) error = errno;
     const int close_error = out.close();
     if (!error) error = close_error;
@@ -204,10 +211,11 @@ void check_writable(const fs::path& path, Existing existing) {
         if (::access(path.c_str(), W_OK) != 0) fail(path, "cannot be written", errno);
         return;
     }
-    const fs::path probe = temporary_beside(behind_links(path));
+    const fs::path target = behind_links(path), probe = temporary_beside(target);
     const Pending pending(probe.string());
     const Descriptor out(create_exclusively(probe));
-    if (out.fd < 0) fail(path, fmt::format("cannot be created in '{}'", directory_of(path).string()), errno);
+    if (out.fd < 0)
+        fail(path, fmt::format("cannot be created in '{}'", directory_of(target).string()), errno);
     ::unlink(probe.c_str());
 }
 

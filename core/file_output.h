@@ -10,10 +10,10 @@ namespace obscura {
 /// What to do when the target exists.
 enum class Existing { refuse, replace };
 
-/// Writes `bytes` to `path`: into a temporary ".NAME.part.PID-N" beside it, every write checked, synced,
-/// renamed over the target, directory synced. On any failure the temporary is removed, the old target is
-/// untouched, and OutputError names the file and the reason. A target that is not a regular file
-/// (/dev/stdout, a pipe) is written directly; a symbolic link is followed.
+/// Writes `bytes` to `path`: into a temporary ".part.PID-N" beside it, every write checked, synced,
+/// renamed over the target, whose mode it takes, directory synced. On any failure the temporary is removed,
+/// the old target is untouched, and OutputError names the file and the reason. A target that is not a regular
+/// file (/dev/stdout, a pipe) is written directly; a symbolic link is followed.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            Existing existing = Existing::refuse);
 

@@ -43,8 +43,8 @@ std::string encode_png(ImageView<const std::uint16_t> image);
 using FloatImage = std::variant<Image<float>, Image<Vec3f>>;
 
 /// PFM, "Pf" or "PF" (P. Debevec; http://www.pauldebevec.com/Research/HDR/PFM/), rows bottom up in the file,
-/// top down here. Both byte orders; the magnitude of the scale is checked and, as usual, not applied. Throws
-/// InputError (line in the header, or byte offset) and LimitError.
+/// top down here. Both byte orders; values are multiplied by the magnitude of the scale, which is the unit of
+/// the file's numbers. Throws InputError (line in the header, or byte offset) and LimitError.
 FloatImage decode_pfm(std::string_view bytes, const std::string& name, const ImageFileLimits& limits = {});
 
 /// Little-endian PFM with scale -1.

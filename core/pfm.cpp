@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 #include "core/error.h"
 #include "core/image_io.h"
@@ -69,6 +70,27 @@ Image<Pixel> read_rows(std::string_view data, int width, int height, bool big_en
     return image;
 }
 
+/// The unit of the numbers in the file, 1 nearly always.
+void scale_by(double magnitude, std::span<float> values) {
+    if (magnitude == 1) return;
+    for (float& v : values)
+        v = static_cast<float>(static_cast<double>(v) * magnitude);
+}
+
+FloatImage scaled(Image<float> image, double magnitude) {
+    scale_by(magnitude, image.pixels);
+    return image;
+}
+
+FloatImage scaled(Image<Vec3f> image, double magnitude) {
+    for (Vec3f& p : image.pixels) {
+        float values[] = {p.x, p.y, p.z};
+        scale_by(magnitude, values);
+        p = {values[0], values[1], values[2]};
+    }
+    return image;
+}
+
 template <class Pixel>
 std::string write_rows(const char* magic, ImageView<const Pixel> image) {
     CHECK(image.width > 0 && image.height > 0, fmt::format("{} x {}", image.width, image.height));
@@ -110,8 +132,9 @@ FloatImage decode_pfm(std::string_view bytes, const std::string& name, const Ima
                               height, expected, header.position, data.size()));
     }
     const int w = static_cast<int>(width), h = static_cast<int>(height);
-    if (colour) return read_rows<Vec3f>(data, w, h, scale > 0);
-    return read_rows<float>(data, w, h, scale > 0);
+    const double magnitude = std::fabs(scale);
+    if (colour) return scaled(read_rows<Vec3f>(data, w, h, scale > 0), magnitude);
+    return scaled(read_rows<float>(data, w, h, scale > 0), magnitude);
 }
 
 std::string encode_pfm(ImageView<const float> image) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "core/color.h"
 
@@ -56,21 +57,41 @@ Image<Vec3f> halved(const Image<Vec3f>& from) {
     return to;
 }
 
-}  // namespace
+/// srgb_decode() of every code of 16 bits.
+const std::vector<float>& linear_of_srgb16() {
+    static const std::vector<float> linear = [] {
+        std::vector<float> all(65536);
+        for (std::size_t code = 0; code < all.size(); ++code)
+            all[code] = static_cast<float>(srgb_decode(static_cast<double>(code) / 65535.0));
+        return all;
+    }();
+    return linear;
+}
 
-Texture make_texture(std::string name, ImageView<const Rgba8> image) {
+template <class Pixel, class Decode>
+Texture texture_of(std::string name, ImageView<const Pixel> image, Decode decode) {
     CHECK(image.width > 0 && image.height > 0);
     Texture texture{std::move(name), {}};
     Image<Vec3f>& base = texture.levels.emplace_back(image.width, image.height);
-    for (int y = 0; y < image.height; ++y) {
-        std::transform(image.row(y), image.row(y) + image.width, base.row(y), [](Rgba8 p) {
-            return srgb8_to_linear(Rgb8{p.r, p.g, p.b});
-        });
-    }
+    for (int y = 0; y < image.height; ++y)
+        std::transform(image.row(y), image.row(y) + image.width, base.row(y), decode);
     while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
         texture.levels.push_back(halved(texture.levels.back()));
     }
     return texture;
+}
+
+}  // namespace
+
+Texture make_texture(std::string name, ImageView<const Rgba8> image) {
+    return texture_of(std::move(name), image, [](Rgba8 p) { return srgb8_to_linear(Rgb8{p.r, p.g, p.b}); });
+}
+
+Texture make_texture(std::string name, ImageView<const Rgba16> image) {
+    const std::vector<float>& linear = linear_of_srgb16();
+    return texture_of(std::move(name), image, [&](Rgba16 p) {
+        return Vec3f{linear[p.r], linear[p.g], linear[p.b]};
+    });
 }
 
 std::int64_t texture_bytes(int width, int height) {

@@ -144,7 +144,7 @@ Loop eyelash_loop(const LensDirt& d, const Square& square, int k) {
 }
 
 /// Everything with an edge.
-Outline hidden_outline(const LensDirt& d, const Square& square) {
+Outline outline_on(const LensDirt& d, const Square& square) {
     Outline outline;
     const Vec2d a = square.corner - Vec2d{1, 1}, b = square.at(1, 1) + Vec2d{1, 1};
     Loop light{{a.x, a.y}, {b.x, a.y}, {b.x, b.y}, {a.x, b.y}};
@@ -207,10 +207,15 @@ bool has_dirt(const LensDirt& dirt) {
            dirt.occluder != Occluder::none;
 }
 
+Outline dirt_outline(const LensDirt& dirt, int width, int height) {
+    check(dirt);
+    return outline_on(dirt, square_of(width, height));
+}
+
 Image<float> dirt_transmission(const LensDirt& dirt, int width, int height) {
     check(dirt);
     const Square square = square_of(width, height);
-    Image<float> light = coverage_of(hidden_outline(dirt, square), width, height);
+    Image<float> light = coverage_of(outline_on(dirt, square), width, height);
     if (dirt.dust_softness > 0) {
         for (int k = 0; k < dirt.dust; ++k)
             add_soft_grain(grain_of(dirt, square, k), dirt.dust_softness, light);

@@ -10,6 +10,10 @@ namespace obscura {
 /// True when there is anything at all.
 bool has_dirt(const LensDirt& dirt);
 
+/// What has an edge: scratches, eyelashes, the occluder and hard dust as loops that close, over an open
+/// square (or the housing's opening), in texels of a mask this large. Throws InputError as below.
+Outline dirt_outline(const LensDirt& dirt, int width, int height);
+
 /// Amplitude that passes each texel of a mask this large, in [0, 1]. Dirt is placed in shares of the mask's
 /// longer side, around its middle: of the same look at every size. Scratches, eyelashes, the occluder and
 /// hard dust have exact coverage, also where they overlap each other. Throws InputError when a number is out

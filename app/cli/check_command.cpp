@@ -9,7 +9,9 @@
 #include "app/cli/flags.h"
 #include "app/cli/messages.h"
 #include "app/cli/scene_flags.h"
+#include "app/cli/scene_run.h"
 #include "app/frame/channels.h"
+#include "app/frame/frame_checks.h"
 #include "app/frame/load_scene.h"
 #include "app/frame/memory.h"
 #include "app/frame/render_frame.h"
@@ -204,6 +206,20 @@ FrameOptions channels_of(const std::vector<Output>& outputs) {
     return channels;
 }
 
+/// Refuses what rendering would refuse in any frame; the scene is at its first afterwards, as before.
+void check_frames(const SceneDocument& document, const FrameOptions& channels, Scene& scene) {
+    const FrameRange range = scene_frames(document);
+    std::vector<int> frames;
+    for (int i = 0; i < range.count(); ++i)
+        frames.push_back(range.at(i));
+    FrameChecks checks(document, channels);
+    for (const int frame : checks.worth_checking(frames)) {
+        set_frame(scene, document, frame);
+        checks.check(scene, frame);
+    }
+    set_frame(scene, document, range.first);
+}
+
 /// What hours of sun take, asked for or not.
 std::string hours_text(const Scene& scene) {
     const Light* sun = sun_with_path(scene);
@@ -274,16 +290,20 @@ std::string memory_text(const char* of, const MemoryEstimate& e, const Scene& sc
 
 std::string check_report(const CheckOptions& options) {
     const SceneDocument document = read_scene(options.scene, options.overrides);
-    const FileAccess access{document.folder, options.allowed_paths, options.allow_missing};
+    SceneRun run;
+    run.scene = options.scene;
+    run.allowed_paths = options.allowed_paths;
+    run.allow_missing = options.allow_missing;
+    const FileAccess access = recording_access(run, document);
     Scene scene = load_scene(document, access);
+    const FrameOptions channels = channels_of(scene.outputs);
+    check_frames(document, channels, scene);
     std::string out = fmt::format("scene     {}\n", options.scene.string());
     out += picture_text(document, scene) + camera_text(scene.camera);
     // Before resolutions are found, as rendering tells it.
-    const FrameOptions channels = channels_of(scene.outputs);
     const MemoryEstimate memory =
                              estimate_memory(scene, {.lights = {}, .bright_px = {}, .channels = channels}),
                          of_views = estimate_memory(scene);
-    check_memory(memory, scene.limits, "the frame");
     const auto found = find_resolutions(scene, channels, Exec{});
     const auto lights = subtables(document.root, "light");
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {

@@ -9,6 +9,7 @@
 #include "app/cli/flags.h"
 #include "app/cli/messages.h"
 #include "app/cli/targets.h"
+#include "app/report/output_plan.h"
 #include "app/scene/file_access.h"
 #include "core/error.h"
 #include "core/image_io.h"
@@ -150,6 +151,8 @@ int run_diff(const Arguments& arguments) {
     flags.text("-o,--output", "FILE", picture, "Write a picture of the differences (.png).", "none");
     flags.on_off("--overwrite", overwrite, "Replace the picture when it exists.");
     if (!flags.parse(arguments)) return 0;
+    if (!picture.empty() && file_kind(picture) != FileKind::png)
+        throw UsageError(fmt::format("'{}': pictures of differences end in .png", picture));
     options.a = a;
     options.b = b;
     options.picture = picture;

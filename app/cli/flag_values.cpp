@@ -122,6 +122,17 @@ std::vector<Aov> aov_values(const std::string& flag, std::string_view text) {
     return aovs;
 }
 
+std::vector<std::filesystem::path> folder_values(const std::string& flag,
+                                                 const std::vector<std::string>& names) {
+    std::vector<std::filesystem::path> folders(names.begin(), names.end());
+    for (const std::filesystem::path& folder : folders) {
+        std::error_code error;
+        if (!std::filesystem::is_directory(folder, error))
+            throw UsageError(fmt::format("{}: '{}' is no folder", flag, folder.string()));
+    }
+    return folders;
+}
+
 std::vector<int> frame_values(const std::string& flag, std::string_view text, const FrameRange& scene) {
     std::vector<int> frames;
     for (const std::string_view part : split(text, ',')) {

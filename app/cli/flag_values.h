@@ -2,6 +2,7 @@
 // Values of command-line flags out of their text. Everything throws UsageError that names the flag.
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,10 @@ struct PixelPlace {
 };
 /// "x,y" inside a width x height picture.
 PixelPlace pixel_value(const std::string& flag, std::string_view text, int width, int height);
+
+/// Folders that are there.
+std::vector<std::filesystem::path> folder_values(const std::string& flag,
+                                                 const std::vector<std::string>& names);
 
 /// "auto" or the name of an instruction set that runs on this machine.
 Isa isa_value(const std::string& flag, std::string_view text);

@@ -93,15 +93,18 @@ void Flags::counted(const std::string& names, int& target, const std::string& do
 
 void Flags::text(const std::string& names, const std::string& value, std::string& target,
                  const std::string& doc, const std::string& shown) {
-    add(Form::value, names, value, doc, shown, [&target](const Given& given) {
-        if (given.times > 0) target = given.values.back();
+    add(Form::value, names, value, doc, shown, [=, this, &target](const Given& given) {
+        if (given.times > 0) target = not_empty(names, given.values.back());
     });
 }
 
 void Flags::list(const std::string& names, const std::string& value, std::vector<std::string>& target,
                  const std::string& doc) {
-    add(Form::list, names, value, doc, "", [&target](const Given& given) {
-        if (given.times > 0) target = given.values;
+    add(Form::list, names, value, doc, "", [=, this, &target](const Given& given) {
+        if (given.times == 0) return;
+        for (const std::string& one : given.values)
+            not_empty(names, one);
+        target = given.values;
     });
 }
 
@@ -121,13 +124,22 @@ void Flags::number(const std::string& names, const std::string& value, double& t
 
 void Flags::positional(const std::string& name, std::string& target, const std::string& doc, bool required) {
     add(Form::positional, name, "", doc, "", [=, this, &target](const Given& given) {
-        if (given.times > 0) target = given.values.back();
+        if (given.times > 0) target = not_empty(name, given.values.back());
         if (required && given.times == 0) reject(name + " is missing");
     });
 }
 
 void Flags::reject(const std::string& message) const {
     throw UsageError(fmt::format("{} (see 'obscura {} --help')", message, command_of(usage)));
+}
+
+/// A text that was given: "" is not the same as nothing.
+const std::string& Flags::not_empty(const std::string& names, const std::string& text) const {
+    if (text.empty()) {
+        const std::string flag = long_name(names);
+        reject((flag.empty() ? names : flag) + " is empty");
+    }
+    return text;
 }
 
 /// What CLI11 could not place: unknown flags first, they explain stray values behind them.

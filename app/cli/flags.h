@@ -59,6 +59,7 @@ class Flags {
     void add(Form form, const std::string& names, const std::string& value, const std::string& doc,
              const std::string& shown, std::function<void(const Given&)> read);
     [[noreturn]] void reject(const std::string& message) const;
+    const std::string& not_empty(const std::string& names, const std::string& text) const;
     void reject_leftovers(std::vector<std::string> left) const;
 
     std::string usage, summary, heading, closing;

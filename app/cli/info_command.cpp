@@ -6,7 +6,9 @@
 #include <cmath>
 #include <iostream>
 
+#include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
+#include "app/scene/texture_notes.h"
 #include "core/edges.h"
 #include "core/error.h"
 
@@ -80,6 +82,13 @@ void write_table(const InfoOptions& options, const ObjModel& model, const MeshIn
         fmt::print(out, "missing: {}\n", message);
     for (const std::string& note : model.notes)
         fmt::print(out, "note: {}\n", note);
+    const auto file_of = [&](std::int32_t texture) {
+        const auto& files = model.texture_files;
+        return std::filesystem::path(files.at(static_cast<std::size_t>(texture))).filename().string();
+    };
+    for (const std::string& note :
+         texture_notes(options.file.string(), model.mesh, model.without_uv, model.materials, file_of))
+        fmt::print(out, "note: {}\n", note);
 }
 
 }  // namespace
@@ -138,7 +147,7 @@ int run_info(const Arguments& arguments) {
         "Go on without material files and materials that are not there; without textures it always does.");
     if (!flags.parse(arguments)) return 0;
     options.file = file;
-    options.allowed_paths = {allowed.begin(), allowed.end()};
+    options.allowed_paths = folder_values("--allow-path", allowed);
     return info_command(options);
 }
 

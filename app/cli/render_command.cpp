@@ -10,6 +10,7 @@
 #include "app/cli/scene_flags.h"
 #include "app/cli/signals.h"
 #include "app/cli/targets.h"
+#include "app/frame/frame_checks.h"
 #include "app/frame/load_scene.h"
 #include "app/report/pixel_trace.h"
 #include "app/report/render_stats.h"
@@ -19,6 +20,16 @@
 
 namespace obscura {
 namespace {
+
+/// Refuses what would be refused in any frame, before the first one is there.
+void check_frames(const RenderPlan& plan, Scene& scene) {
+    FrameChecks checks(plan.document, plan.frame_options);
+    const std::vector<int> first{plan.frames.front()};
+    for (const int frame : checks.worth_checking(plan.pixel ? first : plan.frames)) {
+        set_frame(scene, plan.document, frame);
+        checks.check(scene, frame);
+    }
+}
 
 /// Prints what made one pixel of the first frame.
 void explain_pixel(const RenderPlan& plan, Scene& scene, const FileAccess& access, const Exec& exec) {
@@ -121,6 +132,7 @@ int render_command(const RenderOptions& options) {
     const auto results = result_files(plan);
     if (!plan.pixel) check_targets(results, run.stats_json, run.existing(), *access.read);
     Scene scene = in_stage("loading the scene", [&] { return load_scene(plan.document, access); });
+    check_frames(plan, scene);
 
     if (plan.pixel) {
         explain_pixel(plan, scene, access, run.exec);

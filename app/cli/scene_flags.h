@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
 #include "app/cli/scene_run.h"
 
@@ -22,7 +23,9 @@ struct SceneFlags {
     void add_to(Flags& flags);
     /// All changes as "key=value", -D first, so that a flag of its own wins.
     std::vector<std::string> all_overrides() const;
-    std::vector<std::filesystem::path> allowed_paths() const { return {allowed.begin(), allowed.end()}; }
+    std::vector<std::filesystem::path> allowed_paths() const {
+        return folder_values("--allow-path", allowed);
+    }
 };
 
 /// The flags of every command that renders a scene. Must outlive their parsing, too.

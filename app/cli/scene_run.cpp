@@ -6,12 +6,16 @@
 
 #include "app/cli/flag_values.h"
 #include "app/scene/keyframes.h"
+#include "app/scene/named_files.h"
 
 namespace obscura {
 
 FileAccess recording_access(const SceneRun& run, const SceneDocument& document) {
     FileAccess access{document.folder, run.allowed_paths, run.allow_missing, std::make_shared<ReadFiles>()};
     access.read->add(run.scene);
+    // What is not read this time is as good as what is.
+    for (const auto& file : named_files(document))
+        access.read->add(file);
     return access;
 }
 

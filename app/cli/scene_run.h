@@ -32,7 +32,8 @@ struct SceneRun {
     Existing existing() const { return overwrite ? Existing::replace : Existing::refuse; }
 };
 
-/// The files that the scene may name; `read` has the scene file, and gets whatever is found.
+/// The files that the scene may name; `read` has the scene file and all that it names, and gets whatever
+/// these lead to.
 FileAccess recording_access(const SceneRun& run, const SceneDocument& document);
 
 /// The frames that the run asks for, ascending. Throws UsageError.

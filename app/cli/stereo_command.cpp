@@ -9,8 +9,8 @@
 #include "app/cli/messages.h"
 #include "app/cli/signals.h"
 #include "app/cli/targets.h"
+#include "app/frame/frame_checks.h"
 #include "app/frame/load_scene.h"
-#include "app/frame/memory.h"
 #include "app/pair/pair.h"
 #include "app/report/output_plan.h"
 #include "app/report/pair_notes.h"
@@ -254,6 +254,16 @@ void render_one(Run& run, int number, StereoReport& report) {
     if (run.options.run.verbosity > 0) say(stereo_details(pair, settings));
 }
 
+/// Refuses what would be refused in any frame, before the first one is there. What frames change of the
+/// settings takes no memory.
+void check_frames(Run& run, const StereoSettings& settings) {
+    FrameChecks checks(run.plan.document, {});
+    for (const int frame : checks.worth_checking(run.plan.frames)) {
+        set_stereo_frame(run.scene, run.plan, run.options, frame);
+        checks.check(run.scene, frame, stereo_bytes(run.scene, settings));
+    }
+}
+
 StereoReport begin_report(const StereoOptions& options, const Scene& scene) {
     StereoReport report;
     report.run = {options.run.scene.string(), options.run.exec,     scene.render.width,
@@ -279,9 +289,7 @@ int stereo_command(const StereoOptions& options) {
     Run run{options, plan, scene, access, {stderr, Progress::style_for(stderr, options.run.quiet)}, {}, {}};
     // Names that the scene does not have, and what will not fit, are told before the first tile.
     set_stereo_frame(scene, plan, options, plan.frames.front());
-    MemoryEstimate memory = estimate_memory(scene);
-    memory.frame += stereo_bytes(scene, settings_of(run, plan.frames.front()));
-    check_memory(memory, scene.limits, plan.document.sources[0]);
+    check_frames(run, settings_of(run, plan.frames.front()));
     check_not_read(results, options.run.stats_json, *access.read);
 
     StereoReport report = begin_report(options, scene);

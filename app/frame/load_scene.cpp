@@ -13,20 +13,25 @@
 namespace obscura {
 namespace {
 
-/// Refuses shadow caches that cannot be read, at the place that names them; their files are read, too.
+/// Refuses shadow caches that cannot be read, at the place that names them, and those that would be written
+/// over what the scene reads; then their files are read, too.
 void check_caches(const SceneDocument& document, const FileAccess& access) {
+    std::vector<std::filesystem::path> files;
     for (const SceneTable* light : subtables(document.root, "light")) {
         const SceneEntry* cache = subtable(*light, "shadow").find("cache");
         if (cache == nullptr) continue;
         const std::string& folder = std::get<std::string>(cache->value.data);
         try {
-            const auto place = shadow_cache_folder(access, folder);
             const auto method = value_named(shadow_method_words, text(subtable(*light, "shadow"), "method"));
-            if (access.read) access.read->add(shadow_cache_file(place, text(*light, "id"), method));
+            files.push_back(shadow_cache_file(access, folder, text(*light, "id"), method));
         } catch (const InputError& error) {
             fail_at(cache->value.place, document.sources, fmt::format("'{}': {}", folder, error.message));
         }
+        if (access.read) check_cache_not_read(files.back(), *access.read);
     }
+    // Two that are one file are told apart by their keys, as a kept shadow of another scene is.
+    for (const auto& file : files)
+        if (access.read) access.read->add(file);
 }
 
 /// Refuses stacks of lights that have no plane of focus, in the first frame.

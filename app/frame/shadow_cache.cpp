@@ -58,6 +58,20 @@ std::string state_notice(const fs::path& file, CacheState state) {
     return "";
 }
 
+bool is_link(const fs::path& file) {
+    std::error_code error;
+    return fs::is_symlink(fs::symlink_status(file, error));
+}
+
+/// Of a link to nothing: where it leads all the same. Throws InputError.
+void check_place(const FileAccess& access, const fs::path& link) {
+    try {
+        resolve_input(access, place_of_output(link).string());
+    } catch (const MissingFile&) {
+        // Inside what is allowed, but not there yet.
+    }
+}
+
 /// A folder that is made when it is not there, and taken away again when nothing came to lie in it.
 class MadeFolder {
   public:
@@ -93,8 +107,25 @@ fs::path shadow_cache_folder(const FileAccess& access, const std::string& cache)
     return folder;
 }
 
-fs::path shadow_cache_file(const fs::path& folder, const std::string& light, ShadowMethod method) {
-    return folder / (light + (method == ShadowMethod::stack ? ".shadowstack" : ".shadowtree"));
+fs::path shadow_cache_file(const FileAccess& access, const std::string& cache, const std::string& light,
+                           ShadowMethod method) {
+    const fs::path folder = shadow_cache_folder(access, cache);
+    const std::string name = light + (method == ShadowMethod::stack ? ".shadowstack" : ".shadowtree");
+    FileAccess unrecorded = access;  // who keeps a list wants the name, and decides when
+    unrecorded.read = nullptr;
+    if (is_link(folder / name)) {
+        try {
+            resolve_beside(unrecorded, folder, name);
+        } catch (const MissingFile&) {
+            check_place(unrecorded, folder / name);
+        }
+    }
+    return folder / name;
+}
+
+void check_cache_not_read(const fs::path& file, const ReadFiles& read) {
+    if (read.holds(file))
+        throw OutputError(fmt::format("{}: is read by this run and is no place for a shadow", file.string()));
 }
 
 TreeFileKey geometry_key(const Mesh& mesh) {
@@ -170,6 +201,10 @@ std::optional<ShadowStack> load_stack_cache(const fs::path& file, const TreeFile
 
 void check_shadow_cache(const fs::path& file) {
     const MadeFolder folder(file.parent_path());
+    std::error_code unlinked;
+    if (is_link(file) && !fs::remove(file, unlinked))
+        throw OutputError(
+            fmt::format("{}: cannot take the link away: {}", file.string(), unlinked.message()));
     // A pipe would keep whoever opens it waiting, and a device holds nothing.
     std::error_code error;
     const fs::file_type kind = fs::status(file, error).type();

@@ -19,9 +19,14 @@ namespace obscura {
 /// InputError when it leads elsewhere or when something else than a folder is there.
 std::filesystem::path shadow_cache_folder(const FileAccess& access, const std::string& cache);
 
-/// The file of one light's trees, or of its stack, in that folder.
-std::filesystem::path shadow_cache_file(const std::filesystem::path& folder, const std::string& light,
-                                        ShadowMethod method);
+/// The file of one light's trees, or of its stack, in the folder that its shadow.cache names. It may be a
+/// link that stays where scenes may read, there or not; see check_shadow_cache(). Throws InputError as
+/// shadow_cache_folder() does, and when a link of that name leads elsewhere.
+std::filesystem::path shadow_cache_file(const FileAccess& access, const std::string& cache,
+                                        const std::string& light, ShadowMethod method);
+
+/// Throws OutputError when a file to keep shadows in is, by whatever name, one that the run reads otherwise.
+void check_cache_not_read(const std::filesystem::path& file, const ReadFiles& read);
 
 /// A hash of everything of a mesh that shadows depend on: positions, triangles, what casts, which components
 /// are closed.
@@ -42,7 +47,8 @@ std::optional<ShadowStack> load_stack_cache(const std::filesystem::path& file, c
                                             std::string& notice);
 
 /// Sees that the folder can be made and `file` written in it, before anything is built for it, and leaves
-/// nothing. Throws OutputError.
+/// nothing. A link is taken away: what it leads to has been of no use, and is not replaced. Throws
+/// OutputError.
 void check_shadow_cache(const std::filesystem::path& file);
 
 /// Makes the folder if need be and writes the file, or leaves neither. Throws OutputError.

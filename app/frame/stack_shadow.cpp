@@ -260,8 +260,8 @@ bool make_stack_shadow(const ShadowWork& work, const TreeNeeds*, std::int64_t mo
         return build_light_stack(mesh, views, work.exec, most_bytes, shadow, work.cancel);
     };
     if (light.shadow.cache.empty()) return build();
-    const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
-    const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
+    const auto file =
+        shadow_cache_file(work.cache.access, light.shadow.cache, light.light.id, light.shadow.method);
     if (!work.cache.geometry) work.cache.geometry = geometry_key(mesh);
     const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);
     const std::string notice = read_light_stack(file, key, views, shadow);

@@ -85,8 +85,8 @@ bool build_trees(const ShadowWork& work, const std::vector<NeededNodes>* needed,
     if (light.shadow.cache.empty() || light.shadow.scope != ShadowScope::full) {
         return build_light_trees(work.scene.mesh, needed, work.exec, most_bytes, shadow, work.cancel);
     }
-    const auto folder = shadow_cache_folder(work.cache.access, light.shadow.cache);
-    const auto file = shadow_cache_file(folder, light.light.id, light.shadow.method);
+    const auto file =
+        shadow_cache_file(work.cache.access, light.shadow.cache, light.light.id, light.shadow.method);
     if (!work.cache.geometry) work.cache.geometry = geometry_key(work.scene.mesh);
     const auto views = fitted_shadow_views(light, shadow.casters, light.shadow.resolution);
     const TreeFileKey key = shadow_key(*work.cache.geometry, light, views);

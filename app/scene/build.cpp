@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "app/scene/aperture_file.h"
@@ -15,6 +16,7 @@
 #include "app/scene/obj_file.h"
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
+#include "app/scene/texture_notes.h"
 #include "app/scene/validate.h"
 #include "core/edges.h"
 #include "core/error.h"
@@ -45,19 +47,32 @@ void add_note(Builder& b, const std::string& note) {
     if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
 }
 
+/// Decodes and adds a texture of 8 or 16 bits a sample.
+template <class Pixel>
+void add_texture(Builder& b, const Image<Pixel>& image, const std::string& shown_name) {
+    using Sample = decltype(Pixel::a);
+    const bool clear = std::any_of(image.pixels.begin(), image.pixels.end(),
+                                   [](Pixel p) { return p.a < std::numeric_limits<Sample>::max(); });
+    if (clear) add_note(b, fmt::format("texture {} is transparent in places; drawn opaque", shown_name));
+    b.texture_memory += texture_bytes(image.width, image.height);
+    b.scene.textures.push_back(make_texture(shown_name, image.view()));
+}
+
 /// Index of a texture, which is decoded when it is met for the first time.
 std::int32_t texture_index(Builder& b, const std::filesystem::path& file, const std::string& shown_name) {
     if (const auto known = b.textures.find(file); known != b.textures.end()) return known->second;
     const std::string bytes = read_file(file, largest_texture_file);
     ImageFileLimits limits;
     limits.max_side_px = b.limits.texture_px;
-    // A pixel has 4 bytes in the file's image, and 16 as linear floats with their mip chain.
-    limits.max_bytes = ((b.limits.texture_mib << 20) - b.texture_memory) / 4;
-    const Image<Rgba8> image = decode_png(bytes, shown_name, limits);
-    if (std::any_of(image.pixels.begin(), image.pixels.end(), [](Rgba8 p) { return p.a < 255; }))
-        add_note(b, fmt::format("texture {} is transparent in places; drawn opaque", shown_name));
-    b.texture_memory += texture_bytes(image.width, image.height);
-    b.scene.textures.push_back(make_texture(shown_name, image.view()));
+    // A pixel has 4 or 8 bytes in the file's image, and 16 as linear floats with their mip chain.
+    const std::int64_t left = (b.limits.texture_mib << 20) - b.texture_memory;
+    if (has_16_bit_samples(bytes)) {
+        limits.max_bytes = left / 2;
+        add_texture(b, decode_png16(bytes, shown_name, limits), shown_name);
+    } else {
+        limits.max_bytes = left / 4;
+        add_texture(b, decode_png(bytes, shown_name, limits), shown_name);
+    }
     const auto index = static_cast<std::int32_t>(b.scene.textures.size()) - 1;
     b.textures.emplace(file, index);
     return index;
@@ -98,7 +113,8 @@ void add_materials(Builder& b) {
 struct Part {
     Mesh mesh;
     std::vector<Material> materials;
-    Vec3d origin;  ///< what `mesh` stands about
+    Vec3d origin;                  ///< what `mesh` stands about
+    std::vector<bool> without_uv;  ///< as ObjModel has it
 };
 
 Part load_part(Builder& b, const SceneTable& table) {
@@ -119,14 +135,15 @@ Part load_part(Builder& b, const SceneTable& table) {
             const std::string& file = model.texture_files.at(static_cast<std::size_t>(material.texture));
             material.texture = texture_index(b, file, std::filesystem::path(file).filename().string());
         }
-        return Part{std::move(model.mesh), std::move(model.materials), model.origin};
+        return Part{std::move(model.mesh), std::move(model.materials), model.origin,
+                    std::move(model.without_uv)};
     });
 }
 
 Part make_part(const SceneTable& table) {
     GeneratedModel model = find_shape(text(table, "shape"))->make(table);
     analyse_topology(model.mesh);
-    return {std::move(model.mesh), std::move(model.materials), {}};
+    return {std::move(model.mesh), std::move(model.materials), {}, {}};
 }
 
 /// Points the part's triangles at the scene's materials: the mesh's `material` for all, else
@@ -237,6 +254,10 @@ void add_mesh(Builder& b, const SceneTable& table) {
                         b.document.sources[0], text(table, "id"), total, b.limits.triangles));
     }
     assign_materials(b, table, part);
+    for (const std::string& note : texture_notes(
+             fmt::format("mesh '{}'", text(table, "id")), part.mesh, part.without_uv, b.scene.materials,
+             [&](std::int32_t t) { return b.scene.textures[static_cast<std::size_t>(t)].name; }))
+        add_note(b, note);
     const MeshOptions options = mesh_options_of(table);
     set_objects(table, options.casts_shadow, part.mesh);
     if (options.flip_faces) flip_faces(part.mesh);

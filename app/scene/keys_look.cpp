@@ -24,7 +24,9 @@ const KeyRows<Material>& material_rows() {
         key_row(&Material::emission,
                 vec3_or_number_key("emission_w_m2_sr", "Radiance the surface gives off, per channel.")
                     .in(brightness)),
-        {file_key("texture", "PNG that multiplies base_color; sRGB, repeated outside [0, 1].")},
+        {file_key(
+            "texture",
+            "PNG, of 8 or 16 bits a sample, that multiplies base_color; sRGB, repeated outside [0, 1].")},
         key_row(
             &Material::translucency,
             number_key("translucency", "Share of light that passes thin sheets diffusely, as through leaves.")

@@ -48,6 +48,7 @@ const KeyRows<Output>& output_rows() {
                 "inside it; the last #### of the name stands for the frame number, padded to as many digits. "
                 "A "
                 "single # does only where the scene has several frames, and none does in a folder's name.")
+                .as_result()
                 .need()),
     };
     return rows;

@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "app/scene/text_lines.h"
 #include "core/error.h"
@@ -21,8 +23,12 @@ namespace {
 
 /// The numbers of a newmtl block, as written.
 struct Numbers {
-    Vec3f kd{0.8f, 0.8f, 0.8f}, ks{0, 0, 0}, ke{0, 0, 0};
+    Vec3f kd{0.8f, 0.8f, 0.8f}, ke{0, 0, 0};
+    std::optional<Vec3f> ks_given;
     std::optional<float> ns, pr, pm;
+    std::set<std::string, std::less<>> given;  ///< keywords that are obeyed, met so far
+
+    Vec3f ks() const { return ks_given.value_or(Vec3f{}); }
     std::optional<double> d, tr;  ///< opacity, and 1 less it
 };
 
@@ -84,7 +90,35 @@ std::string with_all_numbers(std::string_view statement) {
     return out + std::string(trimmed(rest));
 }
 
-std::string parse_texture(std::string_view rest, const TextPlace& place) {
+void add_once(std::vector<std::string>& phrases, std::string phrase) {
+    if (std::find(phrases.begin(), phrases.end(), phrase) == phrases.end())
+        phrases.push_back(std::move(phrase));
+}
+
+/// Options of a statement with all its numbers that nobody obeys, unless they say what is done anyway.
+void note_options(MtlEntry& entry, std::string_view statement) {
+    struct Option {
+        std::string_view name;
+        bool (*as_done)(std::string_view value);
+    };
+    constexpr auto never = [](std::string_view) { return false; };
+    constexpr auto on = [](std::string_view value) { return value == "on" || value == "1"; };
+    constexpr auto off = [](std::string_view value) { return value == "off" || value == "0"; };
+    constexpr auto srgb = [](std::string_view value) { return value == "sRGB" || value == "srgb"; };
+    constexpr Option unread[] = {{"-blendu", on},    {"-blendv", on},     {"-cc", off},
+                                 {"-boost", off},    {"-bm", on},         {"-type", never},
+                                 {"-texres", never}, {"-imfchan", never}, {"-colorspace", srgb}};
+    std::string_view rest = statement;
+    for (std::string_view word = take_name_word(rest); !rest.empty(); word = take_name_word(rest)) {
+        for (const Option& option : unread) {
+            std::string_view behind = rest;
+            if (word == option.name && !option.as_done(take_name_word(behind)))
+                add_once(entry.changed, fmt::format("'{}' of map_Kd is not read", option.name));
+        }
+    }
+}
+
+std::string parse_texture(std::string_view rest, MtlEntry& entry, const TextPlace& place) {
     const auto fail = [&](const std::string& message) {
         throw InputError(place.file, place.line, 0, message);
     };
@@ -103,6 +137,7 @@ std::string parse_texture(std::string_view rest, const TextPlace& place) {
         options.clamp || options.brightness != 0 || options.contrast != 1) {
         fail("map_Kd: scaling, moving, clamping or recolouring a texture is not supported");
     }
+    note_options(entry, statement);
     return std::string(trimmed(name));
 }
 
@@ -113,17 +148,33 @@ bool black(Vec3f c) {
     return c.x <= 0 && c.y <= 0 && c.z <= 0;
 }
 
+/// Black in Kd and not in Ks: what mirrors is a metal.
+bool is_metal(const Numbers& n, bool textured) {
+    return !n.pm && black(n.kd) && !black(n.ks()) && !textured;
+}
+
 Material to_material(const std::string& name, const Numbers& n, bool textured) {
     Material m;
     m.name = name;
-    const bool metal = !n.pm && black(n.kd) && !black(n.ks) && !textured;
-    m.base_color = clamped(metal ? n.ks : n.kd);
+    const bool metal = is_metal(n, textured);
+    m.base_color = clamped(metal ? n.ks() : n.kd);
     m.metallic = n.pm.value_or(metal ? 1.0f : 0.0f);
     m.emission = n.ke;
     float roughness = 1.0f;
-    if (n.ns && !black(n.ks)) roughness = std::sqrt(std::sqrt(2.0f / (*n.ns + 2.0f)));
+    if (n.ns && !black(n.ks())) roughness = std::sqrt(std::sqrt(2.0f / (*n.ns + 2.0f)));
     m.roughness = std::clamp(n.pr.value_or(roughness), 0.02f, 1.0f);
     return m;
+}
+
+/// What of the numbers a Material cannot hold.
+void note_changes(MtlEntry& entry, const Numbers& n) {
+    const bool metal = is_metal(n, !entry.texture.empty());
+    const Vec3f base = metal ? n.ks() : n.kd, ks = n.ks();
+    if (std::max({base.x, base.y, base.z}) > 1)
+        add_once(entry.changed, fmt::format("{} is above 1 and is cut to 1", metal ? "Ks" : "Kd"));
+    if (!metal && (ks.x != ks.y || ks.y != ks.z))
+        add_once(entry.changed, "the colour of Ks is not read beside Kd: highlights are white");
+    if (n.ns && !n.ks_given && !n.pr) add_once(entry.changed, "Ns does nothing without Ks");
 }
 
 template <std::size_t n>
@@ -165,13 +216,18 @@ void note_unread(MtlEntry& entry, Numbers& numbers, std::string_view keyword, st
     }
 }
 
+/// Statements that a Material obeys.
+constexpr std::array<std::string_view, 7> obeyed = {"Kd", "Ks", "Ke", "Ns", "Pr", "Pm", "map_Kd"};
+
 /// One statement of the block of `entry`; false when it is none that a Material obeys.
 bool read_statement(MtlEntry& entry, Numbers& numbers, std::string_view keyword, std::string_view rest,
                     const TextPlace& place) {
+    if (contains(obeyed, keyword) && !numbers.given.emplace(keyword).second)
+        add_once(entry.changed, fmt::format("{} is given more than once; the last counts", keyword));
     if (keyword == "Kd") {
         numbers.kd = parse_colour(keyword, rest, place);
     } else if (keyword == "Ks") {
-        numbers.ks = parse_colour(keyword, rest, place);
+        numbers.ks_given = parse_colour(keyword, rest, place);
     } else if (keyword == "Ke") {
         numbers.ke = parse_colour(keyword, rest, place);
     } else if (keyword == "Ns") {
@@ -181,7 +237,7 @@ bool read_statement(MtlEntry& entry, Numbers& numbers, std::string_view keyword,
     } else if (keyword == "Pm") {
         numbers.pm = parse_scalar(keyword, rest, 1.0f, place);
     } else if (keyword == "map_Kd") {
-        entry.texture = parse_texture(rest, place);
+        entry.texture = parse_texture(rest, entry, place);
         entry.texture_line = place.line;
     } else {
         return false;
@@ -192,7 +248,6 @@ bool read_statement(MtlEntry& entry, Numbers& numbers, std::string_view keyword,
 }  // namespace
 
 std::vector<MtlEntry> parse_mtl_text(std::string_view text, const std::string& file) {
-    constexpr std::array<std::string_view, 7> obeyed = {"Kd", "Ks", "Ke", "Ns", "Pr", "Pm", "map_Kd"};
     std::vector<MtlEntry> entries;
     std::vector<Numbers> numbers;
     LineReader lines(text);
@@ -218,6 +273,7 @@ std::vector<MtlEntry> parse_mtl_text(std::string_view text, const std::string& f
     for (std::size_t i = 0; i < entries.size(); ++i) {
         MtlEntry& entry = entries[i];
         entry.material = to_material(entry.name, numbers[i], !entry.texture.empty());
+        note_changes(entry, numbers[i]);
         // Some write Tr 1 beside d 1 and mean the same by both.
         entry.transparent |= numbers[i].d ? *numbers[i].d < 1 : numbers[i].tr.value_or(0) > 0;
     }

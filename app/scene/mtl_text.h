@@ -17,7 +17,9 @@ struct MtlEntry {
     std::string file;      ///< that the block stands in
     int texture_line = 0;  ///< of map_Kd, for messages
     std::vector<std::string> unread;  ///< keywords that would be seen and are not obeyed, each once
-    bool transparent = false;         ///< by d, Tr, Tf, map_d or illum; drawn opaque all the same
+    std::vector<std::string>
+        changed;               ///< of what is obeyed, what the Material does without, as phrases, each once
+    bool transparent = false;  ///< by d, Tr, Tf, map_d or illum; drawn opaque all the same
 };
 
 /// Reads Kd, Ks, Ke, Ns, Pr, Pm and map_Kd of every newmtl block (see load_obj() for what they become); notes

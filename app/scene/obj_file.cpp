@@ -75,8 +75,11 @@ MtlEntries read_libraries(ObjModel& model, const ObjText& text, const Surroundin
     MtlEntries entries;
     for (const ObjName& library : text.libraries) {
         tolerate_missing(model, options.allow_missing, [&] {
-            for (MtlEntry& e : around.read_library(library))
+            for (MtlEntry& e : around.read_library(library)) {
+                if (entries.contains(e.name))
+                    e.changed.emplace_back("newmtl is given more than once; the last counts");
                 entries.insert_or_assign(e.name, std::move(e));
+            }
         });
     }
     return entries;
@@ -98,11 +101,14 @@ class Losses {
         if (entry.transparent) add("transparent in the file; drawn opaque", entry.file, name);
         for (const std::string& keyword : entry.unread)
             add(fmt::format("'{}' is not read", shown(keyword)), entry.file, name);
+        for (const std::string& what : entry.changed)
+            add(what, entry.file, name);
     }
 
     void write(std::vector<std::string>& notes) const {
         for (const auto& [file, what, names] : rows_) {
-            const char* verb = what[0] == '\'' ? ":" : names.size() == 1 ? " is" : " are";
+            const bool of_all = what.starts_with("transparent");
+            const char* verb = !of_all ? ":" : names.size() == 1 ? " is" : " are";
             notes.push_back(fmt::format("{}: {}{} {}", file, names_text(names), verb, what));
         }
     }
@@ -197,6 +203,7 @@ ObjModel build(std::string_view obj, const std::string& file, const std::string&
     model.mesh = std::move(built.mesh);
     model.origin = built.origin;
     model.topology = built.topology;
+    model.without_uv = std::move(built.without_uv);
     model.file_positions = text.positions.size();
     if (options.materials) {
         add_materials(model, text, file, around, options);

@@ -19,6 +19,7 @@ struct ObjModel {
     std::vector<Material> materials;
     std::vector<std::string> texture_files;  ///< canonical paths; Material::texture is an index into these
     TopologyReport topology;
+    std::vector<bool> without_uv;      ///< triangles that textures do not show on, see ObjMesh
     std::size_t file_positions = 0;    ///< v lines, used or not
     std::vector<std::string> missing;  ///< what ObjOptions::allow_missing let pass, as messages
     std::vector<std::string> notes;  ///< what the file has and the model has not, each kind once, as messages

@@ -127,6 +127,7 @@ ObjMesh build_obj_mesh(const ObjText& text, const std::string& name, double crea
     VertexTable vertices(text.positions.size());
     ObjectTable objects(text, name);
     std::vector<Vec3f> outline;
+    bool any_lacks = false;
     for (const ObjFace& face : text.faces) {
         const ObjCorner* corner = &text.corners[face.first_corner];
         outline.clear();
@@ -140,6 +141,9 @@ ObjMesh build_obj_mesh(const ObjText& text, const std::string& name, double crea
             for (std::size_t k = 0; k < 3; ++k)
                 triangle.v[k] = vertices.find_or_add(corner[cut[k]]);
             mesh.triangles.push_back(triangle);
+            const bool lacks = std::any_of(cut.begin(), cut.end(), [&](auto k) { return corner[k].uv < 0; });
+            result.without_uv.push_back(lacks);
+            any_lacks |= lacks;
             result.merged +=
                 merges(text, result.origin,
                        {corner[cut[0]].position, corner[cut[1]].position, corner[cut[2]].position});
@@ -150,6 +154,7 @@ ObjMesh build_obj_mesh(const ObjText& text, const std::string& name, double crea
             smoothing.push_back(face.smoothing);
         }
     }
+    if (!any_lacks) result.without_uv.clear();
     mesh.objects = std::move(objects.objects);
     fill_vertices(mesh, text, result.origin, vertices.corners);
 

@@ -1,6 +1,8 @@
 #pragma once
 // From the checked text of an OBJ file to a mesh.
 
+#include <vector>
+
 #include "app/scene/obj_text.h"
 #include "core/mesh.h"
 #include "core/topology.h"
@@ -12,6 +14,8 @@ struct ObjMesh {
     Mesh mesh;     ///< about `origin`
     Vec3d origin;  ///< whole numbers; add it for the file's own frame
     TopologyReport topology;
+    std::vector<bool>
+        without_uv;  ///< triangle by triangle, whether a corner has no vt; empty: none lacks one
     std::size_t merged =
         0;  ///< triangles whose corners differ in the file, but not as floats about the origin
 };

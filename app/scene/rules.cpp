@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -153,7 +154,10 @@ void check_outputs(const SceneTable& root, int frames, const Sources& sources) {
         const std::filesystem::path path(text(*output, "file"));
         if (text(*output, "aov") == "sun_hours" && !has_sun)
             fail_at(place_of(*output, "aov"), sources, "'aov' = \"sun_hours\" needs a light of type \"sun\"");
-        if (path.extension() != ".png" && path.extension() != ".pfm") {
+        std::string ending = path.extension().string();
+        std::transform(ending.begin(), ending.end(), ending.begin(),
+                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (ending != ".png" && ending != ".pfm") {
             fail_at(place, sources, "'file' must end in .png or .pfm");
         }
         const bool leaves = std::find(path.begin(), path.end(), "..") != path.end();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 
 #include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
@@ -28,12 +29,20 @@ void set_default(SceneTable& table, const char* key, SceneValue value) {
     if (!table.has(key)) table.set(key, std::move(value));
 }
 
+/// The methods that obey a key; `needs` leaves out stacks, which have some keys of each.
+std::string methods_of(std::string_view key, const char* needs) {
+    if (key == "resolution") return "method = \"map\", \"compressed\" or \"stack\"";
+    const bool stack = key == "cache" || key == "max_magnification" || key == "samples";
+    return std::string(needs) + (stack ? " or \"stack\"" : "");
+}
+
 template <std::size_t n>
 void refuse_keys(const SceneTable& settings, const char* const (&keys)[n], const char* needs,
                  const Sources& sources) {
     for (const char* key : keys) {
         if (settings.has(key)) {
-            fail_at(settings.find(key)->place, sources, fmt::format("'{}' needs {}", key, needs));
+            fail_at(settings.find(key)->place, sources,
+                    fmt::format("'{}' needs {}", key, methods_of(key, needs)));
         }
     }
 }
@@ -87,7 +96,8 @@ void complete_dense(SceneTable& settings, const Sources& sources) {
     set_default(settings, "resolution", value_of(dense_default));
     const SceneValue& resolution = settings.find("resolution")->value;
     if (std::holds_alternative<std::string>(resolution.data)) {
-        fail_at(resolution.place, sources, "'resolution' = \"auto\" needs method = \"compressed\"");
+        fail_at(resolution.place, sources,
+                "'resolution' = \"auto\" needs method = \"compressed\" or \"stack\"");
     }
     const SceneValue& filter = settings.find("filter_px")->value;
     if (std::get<std::int64_t>(filter.data) > most_dense_filter_px) {

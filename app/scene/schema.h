@@ -51,6 +51,7 @@ struct KeySpec {
     bool required = false;
     bool animated = false;  ///< frames can set it
     bool folder = false;    ///< files: the text names a folder
+    bool written = false;   ///< files: the text names one that is made
     bool absent = false;    ///< tables: stay away unless given
     Range range;
     std::vector<std::string> choices;
@@ -64,6 +65,7 @@ struct KeySpec {
     KeySpec&& need() && { return required = true, std::move(*this); }
     KeySpec&& animate() && { return animated = true, std::move(*this); }
     KeySpec&& as_folder() && { return folder = true, std::move(*this); }
+    KeySpec&& as_result() && { return written = true, std::move(*this); }
     KeySpec&& only_if_given() && { return absent = true, std::move(*this); }
     KeySpec&& in(Range r) && { return range = r, std::move(*this); }
     KeySpec&& one_of(std::vector<std::int64_t> values) && {

@@ -6,9 +6,12 @@
 
 #include <filesystem>
 #include <iterator>
+#include <sstream>
 #include <string>
 
+#include "app/cli/info_command.h"
 #include "core/error.h"
+#include "core/image_io.h"
 #include "tests/core/temporary_folder.h"
 
 namespace obscura {
@@ -229,7 +232,7 @@ TEST(CheckCommand, RefusesWhatRenderingRefuses) {
     const std::string before = "memory    about ";
     const int picture = std::stoi(report.substr(report.find(before) + before.size()));
     EXPECT_EQ(check("plain.toml", picture + 60), "ok");
-    EXPECT_EQ(check("channels.toml", picture + 60).rfind("the frame: needs about ", 0), 0u);
+    EXPECT_NE(check("channels.toml", picture + 60).find("channels.toml: needs about "), std::string::npos);
     EXPECT_EQ(check("channels.toml", picture + 180), "ok");
     // `render` makes the picture where there is no room for a pair.
     const auto pair = [&](const char* limit) {
@@ -304,6 +307,48 @@ mesh = [{id = "a", file = "a.obj"}, {id = "a2", file = "a.obj"}, {id = "e", file
         EXPECT_NE(at, std::string::npos) << line << "\nis not in\n" << report;
         EXPECT_EQ(report.find(line, at + 1), std::string::npos) << "twice: " << line;
     }
+}
+
+TEST(CheckCommand, TexturesWithoutCoordinatesToShowThemAreTold) {
+    TemporaryFolder folder;
+    const Image<Rgb8> white(2, 2, {255, 255, 255});
+    folder.write("t.png", encode_png(white.view()));
+    folder.write("a.mtl", "newmtl x\nmap_Kd t.png\nnewmtl y\nmap_Kd t.png\n");
+    const std::string begin = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+    folder.write("none.obj", begin + "usemtl x\nf 1 2 3\nf 2 4 3\n");
+    folder.write("some.obj",
+                 begin + "vt 0 0\nusemtl x\nf 1/1 2/1 3/1\nf 2 4/1 3/1\nusemtl y\nf 1/1 2/1 3/1\n");
+    folder.write("s.toml", R"(format = 1
+camera = {eye_m = [0, 1, 5], look_at_m = [0, 0, 0]}
+mesh = [{id = "none", file = "none.obj"}, {id = "some", file = "some.obj"}, {id = "box", shape = "box", material = "m"},
+        {id = "own", file = "none.obj", material = "m"}, {id = "plain", file = "none.obj", material = "p"}]
+material = {m = {texture = "t.png"}, p = {}}
+)");
+    const auto count = [](const std::string& text, const std::string& part) {
+        int n = 0;
+        for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+            ++n;
+        return n;
+    };
+    const std::string report = check_report({folder.path / "s.toml", {}, {}});
+    for (const char* note :
+         {"note      mesh 'none': texture t.png of material 'none/x' does not show on 2 of its 2 "
+          "triangles: no texture coordinates (vt)\n",
+          "note      mesh 'some': texture t.png of material 'some/x' does not show on 1 of its 2 "
+          "triangles: no texture coordinates (vt)\n",
+          "note      mesh 'own': texture t.png of material 'm' does not show on 2 of its 2 "
+          "triangles: no texture coordinates (vt)\n"})
+        EXPECT_EQ(count(report, note), 1) << note << "\nis not in\n" << report;
+    EXPECT_EQ(count(report, "does not show"), 3) << report;
+
+    std::ostringstream info;
+    InfoOptions options;
+    options.file = folder.path / "some.obj";
+    EXPECT_EQ(info_command(options, info), 0);
+    EXPECT_EQ(
+        count(info.str(), "some.obj: texture t.png of material 'x' does not show on 1 of its 2 triangles"), 1)
+        << info.str();
+    EXPECT_EQ(count(info.str(), "does not show"), 1);
 }
 
 TEST(CheckCommand, SurveyedMeshesArePlacedBeforeTheyAreRounded) {

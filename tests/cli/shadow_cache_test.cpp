@@ -13,10 +13,14 @@
 namespace obscura::test {
 namespace {
 
+using Names = std::vector<std::string>;
+
 /// A folder with the small scene, its lamp's map cached in `maps`.
 struct CachedScene {
     explicit CachedScene(const std::string& lamp = "scope = \"full\"") {
         std::string text = small_scene;
+        if (lamp.find("stack") != std::string::npos)
+            text.replace(text.find("[shadow.lamp]"), 0, "angular_diameter_deg = 3\n");
         text.replace(text.find("[shadow.lamp]"), 13, "[shadow]\ncache = \"maps\"\n[shadow.lamp]\n" + lamp);
         folder.write("s.toml", text);
     }
@@ -138,6 +142,64 @@ TEST(ShadowCache, LiesWhereScenesMayRead) {
     // Looking at a scene makes nothing.
     EXPECT_EQ(run_in(scene.folder, {"check", "s.toml", "-D", "shadow.cache=new"}).code, 0);
     EXPECT_FALSE(std::filesystem::exists(scene.folder / "new"));
+}
+
+// A kept map is a file of its own: what a link of its name leads to is never replaced.
+TEST(ShadowCache, ReplacesNothingBehindALink) {
+    for (const std::string lamp : {"scope = \"full\"", "method = \"stack\"\nsamples = 4"}) {
+        const CachedScene scene(lamp);
+        const std::string name = lamp[0] == 's' ? "lamp.shadowtree" : "lamp.shadowstack";
+        const auto file = scene.folder / "maps" / name;
+        std::filesystem::create_directory(scene.folder / "maps");
+        scene.folder.write("notes", "not a map");
+        std::filesystem::create_symlink("../notes", file);
+        const Outcome run = scene.render();
+        EXPECT_EQ(run.code, 0) << run.err;
+        EXPECT_NE(run.err.find(name + " is damaged"), std::string::npos) << run.err;
+        EXPECT_EQ(file_text(scene.folder / "notes"), "not a map");
+        EXPECT_TRUE(std::filesystem::is_regular_file(std::filesystem::symlink_status(file)));
+
+        // A map behind a link serves where it stays inside.
+        std::filesystem::rename(file, scene.folder / "kept");
+        std::filesystem::create_symlink("../kept", file);
+        ASSERT_EQ(scene.render().code, 0);
+        EXPECT_TRUE(scene.from_cache());
+        EXPECT_TRUE(std::filesystem::is_symlink(file));
+
+        // Nothing of the kind leads outside, whether something is there or not.
+        const Folder outside;
+        for (const std::string there : {"map", "nothing"}) {
+            outside.write("map", "somebody's");
+            std::filesystem::remove(file);
+            std::filesystem::create_symlink(outside / there, file);
+            const Outcome refused = scene.render();
+            EXPECT_EQ(refused.code, 3) << refused.err;
+            EXPECT_NE(refused.err.find("leads outside"), std::string::npos) << refused.err;
+            EXPECT_EQ(outside.listing(), Names{"map"});
+            EXPECT_EQ(file_text(outside / "map"), "somebody's");
+        }
+    }
+}
+
+TEST(ShadowCache, ReplacesNothingThatTheRunReads) {
+    const CachedScene scene;
+    const std::string text = file_text(scene.folder / "s.toml");
+    std::filesystem::create_directory(scene.folder / "maps");
+    const auto file = scene.folder / "maps/lamp.shadowtree";
+    for (const bool hard : {false, true}) {
+        std::filesystem::remove(file);
+        if (hard) {
+            std::filesystem::create_hard_link(scene.folder / "s.toml", file);
+        } else {
+            std::filesystem::create_symlink("../s.toml", file);
+        }
+        for (const Outcome& run : {scene.render(), run_in(scene.folder, {"check", "s.toml"})}) {
+            EXPECT_EQ(run.code, 5) << run.err;
+            EXPECT_NE(run.err.find("lamp.shadowtree: is read by this run"), std::string::npos) << run.err;
+        }
+        EXPECT_EQ(file_text(scene.folder / "s.toml"), text);
+        EXPECT_EQ(scene.folder.listing(), (Names{"maps", "s.toml"}));
+    }
 }
 
 // Opened to be written, a pipe waits for a reader who never comes.

@@ -49,7 +49,8 @@ mask = "edit.png"
     }
 };
 
-const Names read_by_render = {"house.toml", "house.png", "wood.png", "lens.png", "roof.mtl", "roof.obj"};
+const Names read_by_render = {"house.toml", "house.png", "wood.png", "lens.png",
+                              "roof.mtl",   "roof.obj",  "edit.png"};
 
 void expect_refused(const ReadingScene& folder, const Names& line, const std::string& file) {
     const std::string before = folder.bytes();
@@ -66,6 +67,13 @@ TEST(Targets, RenderReplacesNothingThatItReads) {
         expect_refused(folder, {"render", "house.toml", "-o", "x.png", "--overwrite", "--stats-json", file},
                        file);
     expect_refused(folder, {"render", "house.toml", "-o", "wood.png", "--overwrite"}, "wood.png");
+    // So does what the scene names and this command does not read, under any name.
+    std::filesystem::create_symlink("edit.png", folder / "e.png");
+    expect_refused(folder, {"render", "house.toml", "-o", "e.png", "--overwrite"}, "e.png");
+    expect_refused(folder,
+                   {"render", "house.toml", "-D", "material.unused.texture=\"maps.pfm\"", "-o", "maps.pfm",
+                    "--overwrite"},
+                   "maps.pfm");
     // Channels are files, too.
     std::filesystem::rename(folder / "house.png", folder / "a.depth.png");
     expect_refused(folder,

@@ -56,6 +56,39 @@ class FileOutput : public testing::Test {
     fs::path folder;
 };
 
+TEST_F(FileOutput, TheLongestNamesAreTaken) {
+    for (const std::size_t length : {242u, 255u}) {
+        const fs::path file = folder / std::string(length, 'n');
+        check_writable(file);
+        write_file_atomically(file, "x");
+        EXPECT_EQ(content(file), "x");
+    }
+    EXPECT_TRUE(contains(output_error([&] { check_writable(folder / std::string(256, 'n')); }),
+                         "File name too long"));
+    EXPECT_EQ(entries(), 2u);
+}
+
+TEST_F(FileOutput, WhatReplacesAFileHasItsMode) {
+    const fs::path file = folder / "f", link = folder / "l";
+    fs::create_symlink("f", link);
+    for (const mode_t mode : {0400u, 0640u, 0604u}) {
+        write_file_atomically(file, "before", Existing::replace);
+        ASSERT_EQ(::chmod(file.c_str(), mode), 0);
+        write_file_atomically(link, "after", Existing::replace);
+        struct stat status {};
+        ASSERT_EQ(::stat(file.c_str(), &status), 0);
+        EXPECT_EQ(status.st_mode & 07777, mode);
+        EXPECT_EQ(content(file), "after");
+    }
+}
+
+TEST_F(FileOutput, ALinkToNowhereIsToldWithTheFolderThatIsMissing) {
+    const fs::path link = folder / "l", missing = folder / "none";
+    fs::create_symlink(missing / "f", link);
+    EXPECT_TRUE(contains(output_error([&] { check_writable(link); }),
+                         link.string() + ": cannot be created in '" + missing.string() + "'"));
+}
+
 TEST_F(FileOutput, WritesAndLeavesNothingElse) {
     const std::string bytes(3'000'000, 'x');
     write_file_atomically(folder / "a.png", bytes);

@@ -289,6 +289,18 @@ TEST(Pfm, BigEndianFilesRead) {
     EXPECT_EQ(image(0, 0), 1.0f);
 }
 
+TEST(Pfm, ValuesAreInTheUnitOfTheScale) {
+    const std::string one("\0\0\x80\x3f", 4);
+    const auto value = [&](const std::string& scale) {
+        return std::get<Image<float>>(decode_pfm("Pf 1 1 " + scale + "\n" + one, "u.pfm"))(0, 0);
+    };
+    EXPECT_EQ(value("-1"), 1.0f);
+    EXPECT_EQ(value("-2"), 2.0f);
+    EXPECT_EQ(value("-0.1"), 0.1f);
+    const auto colour = std::get<Image<Vec3f>>(decode_pfm("PF 1 1 -4\n" + one + one + one, "c.pfm"));
+    EXPECT_EQ(colour(0, 0), (Vec3f{4, 4, 4}));
+}
+
 TEST(PfmBad, EveryBrokenHeaderIsRefused) {
     const auto error = [](const std::string& bytes) {
         return message_of<InputError>([&] { decode_pfm(bytes, "t.pfm"); });

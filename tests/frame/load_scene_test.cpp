@@ -323,6 +323,35 @@ TEST(Texture, LevelsKeepTheMean) {
     EXPECT_EQ(bytes, texture_bytes(5, 3));
 }
 
+TEST(Texture, SixteenBitsAreEightSpreadAndWhatLiesBetween) {
+    Image<Rgba8> eight(256, 1);
+    Image<Rgba16> sixteen(256, 1);
+    for (int i = 0; i < 256; ++i) {
+        eight(i, 0) = {static_cast<std::uint8_t>(i), 0, 255, 255};
+        sixteen(i, 0) = {static_cast<std::uint16_t>(257 * i), 0, 65535, 65535};
+    }
+    const Texture a = make_texture("a", eight.view()), b = make_texture("b", sixteen.view());
+    for (std::size_t level = 0; level < a.levels.size(); ++level)
+        EXPECT_EQ(a.levels[level].pixels, b.levels.at(level).pixels);
+}
+
+TEST_F(SceneBuild, TexturesOfSixteenBitsKeepThem) {
+    Image<std::uint16_t> dark(2, 2, 100);
+    write("dark.png", encode_png(dark.view()));
+    const Scene scene = build(R"(
+[[mesh]]
+id = "a"
+shape = "box"
+material = "m"
+[material.m]
+texture = "dark.png")");
+    const Vec3f texel = scene.textures.at(0).levels[0](0, 0);
+    // Below 0.04045 an sRGB code is 12.92 times what it stands for.
+    EXPECT_FLOAT_EQ(texel.x, 100.0f / 65535.0f / 12.92f);
+    EXPECT_EQ(texel.z, texel.x);
+    EXPECT_EQ(scene.notes, std::vector<std::string>{});
+}
+
 TEST_F(SceneBuild, KeysOfASkyThatDoNothingAreTold) {
     const std::string sun =
         "[[light]]\nid = \"s\"\ntype = \"directional\"\nazimuth_deg = 0\nelevation_deg = 40\n";

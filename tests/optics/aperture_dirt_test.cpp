@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "optics/aperture_shapes.h"
+#include "optics/outline_coverage.h"
 #include "optics/perlin_noise.h"
 
 namespace obscura {
@@ -271,6 +272,27 @@ double lens_area(double r, double s, double d) {
     const double a = (d * d + r * r - s * s) / (2 * d), b = d - a;
     return r * r * std::acos(a / r) - a * std::sqrt(r * r - a * a) + s * s * std::acos(b / s) -
            b * std::sqrt(s * s - b * b);
+}
+
+// All that the keys allow, on the smallest mask: one row of it holds thousands of edges.
+TEST(Dirt, WorkGrowsWithTheEdgesNotWithTheirSquare) {
+    const auto work_of = [](int LensDirt::*kind, int count) {
+        CoverageWork work;
+        coverage_of(dirt_outline(only(kind, count), 64, 64), 64, 64, &work);
+        return work;
+    };
+    for (const auto& [kind, count] :
+         {std::pair{&LensDirt::dust, 10000}, {&LensDirt::scratches, 1000}, {&LensDirt::eyelashes, 200}}) {
+        const CoverageWork work = work_of(kind, count);
+        std::int64_t edges = 0;
+        for (const auto& loop : dirt_outline(only(kind, count), 64, 64).loops)
+            edges += static_cast<std::int64_t>(loop.size());
+        RecordProperty("strands", std::to_string(work.strands));
+        // Work that grows with the edges of a row would be thousands of times theirs.
+        EXPECT_LT(work.strands, 60 * edges)
+            << count << ": " << work.slabs << " slabs, " << work.crossings << " crossings";
+        EXPECT_GT(work.crossings, edges / 100);
+    }
 }
 
 TEST(Occluders, CatsEyeAndEclipse) {

@@ -254,6 +254,37 @@ TEST(ObjFile, WhatIsNotReadIsNotedOnceOfAKind) {
     EXPECT_EQ(read("# nothing\n").notes, std::vector<std::string>{"text.obj: has no triangles"});
 }
 
+TEST(ObjFile, WhatChangesOnTheWayToAMaterialIsNotedOnceOfAKind) {
+    using Notes = std::vector<std::string>;
+    const auto notes = [&](const std::string& block, const std::string& before = "") {
+        return read(std::string("mtllib a.mtl\n") + triangle + "usemtl m\nf 1 2 3\n",
+                    before + "newmtl m\n" + block)
+            .notes;
+    };
+    const auto one = [](const std::string& what) { return Notes{"text.mtl: 'm': " + what}; };
+    EXPECT_EQ(notes("Kd 1.2 0.5 0.5\n"), one("Kd is above 1 and is cut to 1"));
+    EXPECT_EQ(notes("Kd 0 0 0\nKs 2 2 2\n"), one("Ks is above 1 and is cut to 1"));
+    EXPECT_EQ(notes("Kd 1 1 1\nKs 1 0.5 0.5\n"),
+              one("the colour of Ks is not read beside Kd: highlights are white"));
+    EXPECT_EQ(notes("Ns 200\n"), one("Ns does nothing without Ks"));
+    EXPECT_EQ(notes("Kd 0 0 0\nKd 1 1 1\nKd 0 0 0\n"), one("Kd is given more than once; the last counts"));
+    EXPECT_EQ(notes("Kd 1 1 1\n", "newmtl m\nKd 0 0 0\n"),
+              one("newmtl is given more than once; the last counts"));
+    EXPECT_EQ(notes("map_Kd -imfchan r -blendu off -blendv on -type sphere t.png\n"),
+              (Notes{"text.mtl: 'm': '-imfchan' of map_Kd is not read",
+                     "text.mtl: 'm': '-blendu' of map_Kd is not read",
+                     "text.mtl: 'm': '-type' of map_Kd is not read"}));
+    // What comes through whole is not talked about.
+    EXPECT_EQ(notes("Kd 1 1 1\nKs 0.3 0.3 0.3\nNs 20\n"), Notes{});
+    EXPECT_EQ(notes("Kd 1 1 1\nKs 0 0 0\nNs 20\n"), Notes{});
+    EXPECT_EQ(notes("Kd 0 0 0\nKs 1 0.5 0.5\nKe 3 3 3\n"), Notes{});
+    EXPECT_EQ(notes("Kd 1 1 1\nPr 0.3\nNs 20\n"), Notes{});
+    const ObjModel two =
+        read(std::string("mtllib a.mtl\n") + triangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n",
+             "newmtl a\nKd 2 2 2\nnewmtl b\nKd 3 3 3\nnewmtl unused\nKd 4 4 4\n");
+    EXPECT_EQ(two.notes, Notes{"text.mtl: 'a', 'b': Kd is above 1 and is cut to 1"});
+}
+
 TEST(ObjFile, SurveyedCoordinatesKeepTheirDetails) {
     // A wall of 0.2 m at 5,400,000 m, where single precision has steps of half a metre.
     const ObjModel model = read(

@@ -1,5 +1,6 @@
 // Reading, overriding, dumping and animating scene files that are right.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -195,6 +196,15 @@ TEST(Keyframes, FrameRanges) {
          {"", "-1", "1-", "5-4", "1-5x0", "1-5x", "1 - 5", "1,2", "1x2", "9999999999", "1-2-3"}) {
         EXPECT_FALSE(parse_frame_range(bad)) << bad;
     }
+}
+
+TEST(SceneFile, EndingsOfOutputsAreOfAnyCase) {
+    for (const char* file : {"A.PNG", "a.Pfm", "a.png"})
+        EXPECT_NO_THROW(read_scene_text(fmt::format("format = 1\ncamera = {{eye_m = [0, 1, 5], look_at_m = "
+                                                    "[0, 0, 0]}}\n[[output]]\nfile = \"{}\"\n",
+                                                    file),
+                                        "s.toml"))
+            << file;
 }
 
 }  // namespace

@@ -142,14 +142,20 @@ TEST(ShadowMethods, KeysThatAMethodDoesNotReadAreRefused) {
         return "";
     };
     EXPECT_NE(message("method = \"exact\", resolution = 1024")
-                  .find("'resolution' needs method = \"map\" or \"compressed\""),
+                  .find("'resolution' needs method = \"map\", \"compressed\" or \"stack\""),
               std::string::npos);
+    for (const std::string setting : {"cache = \"c\"", "max_magnification = 1"})
+        EXPECT_NE(
+            message("method = \"exact\", " + setting).find("needs method = \"compressed\" or \"stack\""),
+            std::string::npos)
+            << setting;
     EXPECT_NE(message("method = \"exact\", filter_px = 3").find("'filter_px' needs"), std::string::npos);
     EXPECT_NE(message("method = \"exact\", scope = \"full\"").find("'scope' needs method = \"compressed\""),
               std::string::npos);
     EXPECT_EQ(message("method = \"exact\", receivers = \"any\""), "");
-    EXPECT_NE(message("method = \"map\", samples = 16").find("'samples' needs method = \"exact\""),
-              std::string::npos);
+    EXPECT_NE(
+        message("method = \"map\", samples = 16").find("'samples' needs method = \"exact\" or \"stack\""),
+        std::string::npos);
     EXPECT_EQ(message("method = \"exact\", samples = 16"), "");
 }
 
