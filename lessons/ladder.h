@@ -31,7 +31,9 @@ constexpr int lesson_width = 1600, lesson_height = 1000;
     LESSON(lesson_17_vertices, "Vertices follow the map", "triangles cut where the map bends, moved half a disparity for either eye") \
     LESSON(lesson_18_kept_field, "A far field up to date", "a disc moves over an iris: the difference is added, its drift is counted, its price compared") \
     LESSON(lesson_19_exact_shadows, "The sample is the texel", "shadows of the camera's own samples, without a map: edges, planes, and what is uncertain") \
-    LESSON(lesson_20_penumbrae, "Penumbrae", "a light with a size as many without: where they are, what too few show, what all at once cost")
+    LESSON(lesson_20_penumbrae, "Penumbrae", "a light with a size as many without: where they are, what too few show, what all at once cost") \
+    LESSON(lesson_21_two_as_one, "Two subtrees as one", "differences repeat where depths do not; what was compared must not move any more") \
+    LESSON(lesson_22_two_halves, "Structure and values", "a tree as a graph of what is alike and a list of depths that a lookup counts along")
 // clang-format on
 
 #define OBSCURA_DECLARE_LESSON(draw, title, summary) Image<Rgb8> draw(const Exec& exec);
