@@ -89,11 +89,15 @@ std::vector<CodeRow> measure_codes(const ShadowRecipe& recipe, const std::vector
     const Scene scene = stage_shadows(recipe, plan.picture);
     const Exec exec{best_isa(), options.threads.back()};
     const VisiblePoints seen = visible_points(scene, exec);
-    // Open scans grow as the square of the side: sixteen times from size to size.
-    constexpr std::uint64_t largest_bytes = 80'000'000;
+    // Open scans grow as the square of the side: a tree that would be larger than this is left out.
+    constexpr double largest_bytes = 40e6;
     std::vector<CodeRow> rows;
     for (const int size : sizes) {
-        if (!rows.empty() && 16 * rows.back().mh_bytes > largest_bytes) break;
+        const std::size_t done = rows.size();
+        if (done > 1) {
+            const auto last = static_cast<double>(rows[done - 1].mh_bytes);
+            if (last * last / static_cast<double>(rows[done - 2].mh_bytes) > largest_bytes) break;
+        }
         CodeRow row;
         row.scene = recipe.name;
         row.triangles = scene.mesh.triangles.size();

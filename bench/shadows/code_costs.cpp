@@ -93,12 +93,13 @@ std::vector<CodeCost> tree_costs(const Scene& scene, const MultiresTree& tree, c
         std::vector<double> shortest(trees.size(), 0);
         for (int run = 0; run <= options.runs; ++run) {
             for (std::size_t i = 0; i < trees.size(); ++i) {
-                const double s = seconds_of_lookups(seen, pcf_light(light, std::span<const ShadowTree>(trees[i]), scene.camera.eye));
+                const double s = seconds_of_lookups(
+                    seen, pcf_light(light, std::span<const ShadowTree>(trees[i]), scene.camera.eye));
                 shortest[i] = run == 0 ? s : std::min(shortest[i], s);
             }
         }
-        const auto asked =
-            static_cast<double>(asking_samples(seen, pcf_light(light, std::span<const ShadowTree>(trees[0]), scene.camera.eye)));
+        const auto asked = static_cast<double>(
+            asking_samples(seen, pcf_light(light, std::span<const ShadowTree>(trees[0]), scene.camera.eye)));
         for (std::size_t i = 0; i < trees.size(); ++i)
             costs[i].lookups[kernel] = 1e-6 * asked / shortest[i];
     }

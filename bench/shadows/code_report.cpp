@@ -108,8 +108,10 @@ PanelChart cost_chart(const std::vector<CodeRow>& rows) {
     chart.note = "Texels find depths of their own interval in all but the voxels; both axes logarithmic.";
     chart.x_label = "texels a side";
     chart.y_label = "MB";
-    chart.x_tics = size_tics();
+    // Dense maps leave the panels soon: else all others would lie on one line.
+    chart.x_tics = size_tics() + "\nset xrange [900:80000]\nset yrange [0.02:60]";
     chart.key_strip = true;
+    chart.panel_height = 400;
     for (const std::string& scene : distinct(rows, &CodeRow::scene)) {
         std::vector<PanelLine> lines;
         for (const CodeRow& row : rows) {

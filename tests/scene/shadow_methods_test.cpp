@@ -141,6 +141,7 @@ TEST(ShadowMethods, CodeAutoIsMergedWhereTheWholeMapIsKept) {
         EXPECT_EQ(asked.code, row.code);
         EXPECT_EQ(asked.reason, nullptr);
     }
+    EXPECT_THROW(chosen(automatic + ", layout = \"words16\""), InputError) << "of mh alone";
     const CodeChoice plain = chosen("cache = \"maps\"");
     EXPECT_EQ(plain.code, ShadowCode::mh);
     EXPECT_EQ(plain.reason, nullptr);
