@@ -30,6 +30,7 @@
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
 #include "app/scene/rules_shadow.h"
+#include "app/scene/shadow_code.h"
 #include "app/scene/stereo_settings.h"
 #include "core/count_text.h"
 #include "core/error.h"
@@ -84,7 +85,8 @@ std::string texel_text(const SceneLight& light, const Scene& scene) {
 std::string tree_text(const SceneLight& light) {
     const ShadowSettings& s = light.shadow;
     std::string out = s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
-    if (s.code != ShadowCode::mh) out += fmt::format(" as {}", name_of(s.code));
+    const ShadowCode code = chosen_code(s).code;
+    if (code != ShadowCode::mh) out += fmt::format(" as {}", name_of(code));
     if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
     return out + (s.filter == ShadowFilter::pcf ? "" : ", filtered hierarchically");
 }
@@ -162,6 +164,14 @@ bool stack_pays(const SceneDocument& document, const SceneLight& light, const Sc
     return true;
 }
 
+/// Why this method and this code. `reason`: for the method.
+std::string method_text(const ShadowSettings& s, const std::string& reason) {
+    const std::string out = fmt::format("          {}: {}\n", name_of(shadow_method_words, s.method), reason);
+    const CodeChoice choice = chosen_code(s);
+    if (s.method != ShadowMethod::compressed || choice.reason == nullptr) return out;
+    return out + fmt::format("          {}: auto, {}\n", name_of(choice.code), choice.reason);
+}
+
 /// `light`: its resolution as found. `reason`: for its method.
 std::string light_text(const SceneLight& light, const std::optional<FoundResolution>& found,
                        const Scene& scene, const std::string& reason) {
@@ -169,8 +179,7 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     if (light.light.below_horizon) out += ", below the horizon in the first frame";
     const int maps = shadow_map_count(light);
     if (maps == 0) return out + ", no shadows\n";
-    const std::string why =
-        fmt::format("          {}: {}\n", name_of(shadow_method_words, light.shadow.method), reason);
+    const std::string why = method_text(light.shadow, reason);
     if (light.shadow.method == ShadowMethod::exact) return out + exact_text(light, scene) + '\n' + why;
     if (light.shadow.method == ShadowMethod::stack) return out + stack_text(light, found, scene) + why;
     const bool dense = light.shadow.method == ShadowMethod::map;

@@ -23,7 +23,8 @@ struct LightShadowStats {
     std::string light;
     ShadowMethod method = ShadowMethod::map;
     ShadowCode code = ShadowCode::mh;       ///< compressed: what trees are written in,
-    std::string code_text;                  ///< and in which of its ways, the first of them
+    std::string code_text;                  ///< and in which of its ways, the first of them;
+    std::string code_reason;                ///< and why, when the scene leaves that open
     ShadowScope scope = ShadowScope::full;  ///< what was built: a frame that asks for too much gets all
     int resolution = 0;
     std::int64_t views = 0;

@@ -5,6 +5,7 @@
 
 #include <system_error>
 
+#include "app/scene/shadow_code.h"
 #include "core/error.h"
 #include "core/file_output.h"
 #include "core/hash.h"
@@ -158,7 +159,8 @@ TreeFileKey shadow_key(const TreeFileKey& geometry, const SceneLight& light,
     }
     hasher.add(light.shadow.receivers);
     // Keys of mh are those of before there were other codes.
-    if (light.shadow.code != ShadowCode::mh) hasher.add(light.shadow.code);
+    const ShadowCode code = chosen_code(light.shadow).code;
+    if (code != ShadowCode::mh) hasher.add(code);
     hasher.add(light.shadow.layout);
     hasher.add(light.shadow.top_levels);
     return hasher.key();

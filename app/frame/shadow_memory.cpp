@@ -9,6 +9,7 @@
 #include "app/frame/stack_shadow.h"
 #include "app/frame/sun_hours.h"
 #include "app/frame/surface_light.h"
+#include "app/scene/shadow_code.h"
 #include "core/parallel.h"
 #include "hierarchy/build_memory.h"
 #include "hierarchy/codes/codes.h"
@@ -68,7 +69,7 @@ std::int64_t built_nodes(const SceneLight& light, const RenderSettings& render) 
 std::int64_t top_bytes(const SceneLight& light) {
     return light.shadow.resolution == auto_resolution
                ? 0
-               : shadow_map_count(light) * top_nodes_of(light.shadow.code) *
+               : shadow_map_count(light) * top_nodes_of(chosen_code(light.shadow).code) *
                      (std::int64_t{sizeof(TopNode)} << (2 * light.shadow.top_levels));
 }
 
@@ -197,7 +198,8 @@ std::int64_t shadow_work_bytes(const MeshSize& mesh, std::span<const SceneLight>
         most = std::max(most, squares);
         // One view's tree at a time.
         const std::int64_t nodes = built_nodes(light, render) / std::max(shadow_map_count(light), 1);
-        work = std::max(work, construction_bytes(mesh) + nodes * row_of(s.code).node_construction_bytes);
+        work = std::max(
+            work, construction_bytes(mesh) + nodes * row_of(chosen_code(s).code).node_construction_bytes);
     }
     return lists + std::max(work, most * 2 * word_bytes);
 }

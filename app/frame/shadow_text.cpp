@@ -3,8 +3,19 @@
 #include <fmt/format.h>
 
 #include "app/frame/shadow_method.h"
+#include "app/scene/shadow_code.h"
+#include "hierarchy/codes/codes.h"
 
 namespace obscura {
+namespace {
+
+/// Whether making the tree in its code takes more than by itself.
+bool takes_more_memory(const ShadowSettings& shadow) {
+    const auto node_bytes = [](ShadowCode code) { return row_of(code).node_construction_bytes; };
+    return node_bytes(chosen_code(shadow).code) > node_bytes(ShadowCode::mh);
+}
+
+}  // namespace
 
 std::string size_text(std::int64_t bytes) {
     const auto b = static_cast<double>(bytes);
@@ -34,6 +45,7 @@ std::string capped_text(const SceneLight& light, const FoundResolution& found) {
 std::string smaller_tree_text(const ShadowSettings& shadow) {
     std::string ways = "lower its resolution or raise max_magnification";
     if (shadow.scope == ShadowScope::full) ways += ", build only what the frame needs (scope = \"frame\")";
+    if (takes_more_memory(shadow)) ways += ", write it by itself (code = \"mh\")";
     if (shadow.receivers == Receivers::any) {
         ways += ", let open surfaces shade the scene alone (receivers = \"static\")";
     }

@@ -8,6 +8,7 @@
 #include "app/frame/sky_light.h"
 #include "app/frame/soft_light.h"
 #include "app/frame/tree_shadow.h"
+#include "app/scene/shadow_code.h"
 #include "core/stopwatch.h"
 #include "raster/light_samples.h"
 #include "raster/lighting.h"
@@ -25,7 +26,9 @@ LightShadowStats fresh_stats(const SceneLight& light, const std::optional<FoundR
     if (light.shadow.method == ShadowMethod::stack) stats.views = stats.samples = light.shadow.samples;
     if (light.shadow.method == ShadowMethod::compressed) {
         stats.scope = light.shadow.scope;
-        stats.code = light.shadow.code;
+        const CodeChoice choice = chosen_code(light.shadow);
+        stats.code = choice.code;
+        if (choice.reason != nullptr) stats.code_reason = choice.reason;
     }
     return stats;
 }

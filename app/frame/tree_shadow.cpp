@@ -8,6 +8,7 @@
 #include "app/frame/scene_light.h"
 #include "app/frame/shadow_cache.h"
 #include "app/frame/shadow_text.h"
+#include "app/scene/shadow_code.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -29,7 +30,7 @@ std::uint64_t most_nodes(std::int64_t bytes, const ShadowCodeRow& code) {
 MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,
                         std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
                         const std::atomic<bool>* cancel) {
-    const ShadowCodeRow& code = row_of(light.shadow.code);
+    const ShadowCodeRow& code = row_of(chosen_code(light.shadow).code);
     params.max_nodes = most_nodes(left_bytes, code);
     params.keep_intervals = code.wants_intervals;
     BuildStats of_view;
@@ -117,7 +118,7 @@ bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed,
         }
         const Stopwatch encoding;
         EncodeParams encode;
-        encode.code = light.shadow.code;
+        encode.code = chosen_code(light.shadow).code;
         encode.layout = light.shadow.layout;
         encode.exec = exec;
         encode.top_levels = std::min(light.shadow.top_levels, tree.levels);
@@ -175,6 +176,7 @@ std::string tree_shadow_text(const LightShadowStats& s) {
     const BuildStats& b = s.build;
     out += fmt::format("    nodes_full {} nodes_empty {} nodes_leaf {}, needed {}, {}: {}\n", s.nodes.full,
                        s.nodes.empty, s.nodes.leaf, s.needed, name_of(s.code), s.code_text);
+    if (!s.code_reason.empty()) out += fmt::format("    {}: auto, {}\n", name_of(s.code), s.code_reason);
     out += fmt::format(
         "    nodes_visited {} certified_cover {} certified_mesh {} texels_rasterized {} list_operations {}\n",
         b.nodes_visited, b.certified_cover, b.certified_mesh, b.texels_rasterized, b.list_operations);

@@ -66,7 +66,7 @@ const KeyRows<ShadowSettings>& shadow_rows() {
         word_row_if_given(
             &ShadowSettings::scope, shadow_scope_words, "scope",
             "Compressed: build what the frame's pixels look up, or everything, to be kept while only "
-            "the camera moves. \"full\" where there is a cache or a code other than \"mh\", else \"frame\"."),
+            "the camera moves. \"full\" where there is a cache or code \"mmh\" or \"dag\", else \"frame\"."),
         word_row_if_given(
             &ShadowSettings::filter, shadow_filter_words, "filter",
             "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
@@ -85,9 +85,11 @@ const KeyRows<ShadowSettings>& shadow_rows() {
         word_row_if_given(
             &ShadowSettings::code, shadow_code_words.all, "code",
             "Compressed: how the tree is written. mh: by itself. The others, scope \"full\" alone, take "
-            "more off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds to "
-            "find; lookups read as many nodes. dag: structure and depths apart, all that is alike in either "
-            "written once; lookups read several times as much. \"mh\" when not given."),
+            "more off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds "
+            "to find; lookups read as many nodes. dag: structure and depths apart, all that is alike in "
+            "either written once; lookups read several times as much. auto: the smallest that is as fast "
+            "as mh and is waited for once: mmh with scope \"full\", a cache, filter_px 1 and at least 6 "
+            "top_levels, else mh; `obscura check` tells which, and why. \"mh\" when not given."),
         word_row_if_given(&ShadowSettings::layout, tree_layout_words.all, "layout",
                           "Compressed, code \"mh\": how nodes are written. bytes16 is about a tenth smaller "
                           "and slower to look up, "

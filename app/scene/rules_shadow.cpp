@@ -175,7 +175,8 @@ void complete_compressed(SceneTable& settings, const SceneEntry* cache, std::int
         fail_at(settings.find("cache")->place, sources, "'cache' needs scope = \"full\"");
     }
     // What merged trees store depends on all that is in them: parts of one are no part of another.
-    const bool whole = settings.has("code") && text(settings, "code") != "mh";
+    const bool whole =
+        settings.has("code") && text(settings, "code") != "mh" && text(settings, "code") != "auto";
     if (whole && frame) {
         fail_at(settings.find("code")->place, sources,
                 fmt::format("'code' = \"{}\" needs scope = \"full\"", text(settings, "code")));

@@ -1,6 +1,7 @@
 #pragma once
 // How the shadows of one light are made and filtered.
 
+#include <optional>
 #include <string>
 
 #include "app/scene/words.h"
@@ -27,11 +28,12 @@ inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope
                                                            {"full", ShadowScope::full}};
 inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},
                                                              {"hierarchical", ShadowFilter::hierarchical}};
+/// "auto", which is no code, and the codes.
 struct ShadowCodeWords {
-    Word<ShadowCode> all[shadow_code_count] = {};
+    Word<std::optional<ShadowCode>> all[1 + shadow_code_count] = {{"auto", std::nullopt}};
     constexpr ShadowCodeWords() {
         for (int i = 0; i < shadow_code_count; ++i)
-            all[i] = {shadow_code_names[i].name, shadow_code_names[i].code};
+            all[1 + i] = {shadow_code_names[i].name, shadow_code_names[i].code};
     }
 };
 inline constexpr ShadowCodeWords shadow_code_words;
@@ -89,9 +91,9 @@ struct ShadowSettings {
     ShadowScope scope = ShadowScope::frame;
     ShadowFilter filter = ShadowFilter::pcf;
     double max_magnification = 1.0;  ///< auto: pixels that a texel spans at most, the shorter way
-    ShadowCode code = ShadowCode::mh;
-    TreeLayout layout = TreeLayout::words24;  ///< mh only
-    int top_levels = 6;                       ///< first levels that are kept as a table, in [0, 10]
+    std::optional<ShadowCode> code = ShadowCode::mh;  ///< none: auto, see chosen_code()
+    TreeLayout layout = TreeLayout::words24;          ///< mh only
+    int top_levels = 6;                               ///< first levels that are kept as a table, in [0, 10]
     std::string cache;  ///< folder for finished maps of scope full, and stacks; empty: none
     friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
 };

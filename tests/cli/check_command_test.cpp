@@ -74,6 +74,38 @@ file = "out_####.png"
         << "something was written";
 }
 
+TEST(CheckCommand, TellsTheCodeThatAutoTakesAndWhy) {
+    const TemporaryFolder folder;
+    const auto report = [&](const std::string& shadow) {
+        folder.write("s.toml",
+                     "format = 1\n[camera]\neye_m = [0, 2, 6]\nlook_at_m = [0, 0, 0]\n[render]\n"
+                     "size_px = [20, 16]\n[[mesh]]\nid = \"a\"\nshape = \"box\"\n[[light]]\nid = \"sun\"\n"
+                     "type = \"directional\"\nazimuth_deg = 90\nelevation_deg = 40\n"
+                     "shadow = {resolution = 1024" +
+                         shadow + "}\n");
+        return check_report({folder.path / "s.toml", {}, {}});
+    };
+    const struct {
+        const char *keys, *told;
+    } cases[] = {
+        {", code = \"auto\", filter_px = 1, cache = \"maps\"",
+         "\n          mmh: auto, smaller than mh and as fast, and made once for its file\n"},
+        {", code = \"auto\", scope = \"full\"",
+         "\n          mh: auto, without a cache every run would wait for others to be made\n"},
+        {", code = \"auto\"", "\n          mh: auto, parts of a map are written by themselves\n"},
+        {", code = \"auto\", cache = \"maps\"",
+         "\n          mh: auto, for kernels of several texels smaller ones are slower\n"},
+        {", code = \"auto\", cache = \"maps\", top_levels = 0",
+         "\n          mh: auto, with so few top_levels smaller ones are slower\n"},
+    };
+    for (const auto& c : cases) {
+        const std::string text = report(c.keys);
+        EXPECT_NE(text.find(c.told), std::string::npos) << c.told << "\nis not in\n" << text;
+    }
+    EXPECT_NE(report(cases[0].keys).find("built whole as mmh and kept in maps"), std::string::npos);
+    EXPECT_EQ(report(", code = \"mmh\"").find("mmh: "), std::string::npos) << "as asked";
+}
+
 TEST(CheckCommand, StacksAreToldAdvisedAndRefusedAtTheirKey) {
     const TemporaryFolder folder;
     const std::string lamp =

@@ -57,6 +57,29 @@ TEST(ShadowCache, GivesTheSamePictureWithoutBuilding) {
     EXPECT_TRUE(scene.from_cache());
 }
 
+TEST(ShadowCache, KeepsWhatCodeAutoTakes) {
+    const CachedScene scene("code = \"auto\"\nfilter_px = 1");
+    const Outcome first = scene.render({"-v"});
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_NE(first.err.find("    mmh: auto, smaller than mh and as fast, and made once for its file\n"),
+              std::string::npos)
+        << first.err;
+    EXPECT_FALSE(scene.from_cache());
+    EXPECT_EQ(read_tree_file(scene.folder / "maps/lamp.shadowtree").trees.at(0).code.code, ShadowCode::mmh);
+    const std::string picture = file_text(scene.folder / "s.png"), map = scene.map();
+    ASSERT_EQ(scene.render().code, 0);
+    EXPECT_TRUE(scene.from_cache());
+    EXPECT_EQ(file_text(scene.folder / "s.png"), picture);
+    // The same code by its name has the same file.
+    ASSERT_EQ(scene.render({"-D", "shadow.lamp.code=mmh"}).code, 0);
+    EXPECT_TRUE(scene.from_cache());
+    EXPECT_EQ(scene.map(), map);
+    // With few top levels auto means another.
+    ASSERT_EQ(scene.render({"-D", "shadow.lamp.top_levels=2"}).code, 0);
+    EXPECT_FALSE(scene.from_cache());
+    EXPECT_EQ(read_tree_file(scene.folder / "maps/lamp.shadowtree").trees.at(0).code.code, ShadowCode::mh);
+}
+
 TEST(ShadowCache, IsMadeAgainWithANoticeWhenAnythingItDependsOnChanged) {
     const CachedScene scene;
     ASSERT_EQ(scene.render().code, 0);

@@ -197,7 +197,7 @@ const std::vector<BadScene>& bad_scenes() {
          "you "
          "mean 'words24'?"},
         {"UnknownCode", light(directional + "shadow.code = \"tree\""),
-         "s.toml:8:15: 'code' must be one of \"mh\", \"mmh\", \"dag\", not \"tree\""},
+         "s.toml:8:15: 'code' must be one of \"auto\", \"mh\", \"mmh\", \"dag\", not \"tree\""},
         {"LayoutOfMergedTrees", light(directional + "shadow = {code = \"mmh\", layout = \"words16\"}"),
          "s.toml:8:25: 'layout' needs code = \"mh\""},
         {"PartsOfMergedTrees", light(directional + "shadow = {code = \"mmh\", scope = \"frame\"}"),

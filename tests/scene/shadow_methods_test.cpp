@@ -7,6 +7,7 @@
 #include "app/scene/build.h"
 #include "app/scene/rules_shadow.h"
 #include "app/scene/scene_file.h"
+#include "app/scene/shadow_code.h"
 #include "app/scene/shadow_settings.h"
 #include "core/error.h"
 
@@ -107,6 +108,43 @@ TEST(ShadowMethods, ACacheForAllLightsKeepsTrees) {
     const Planned p = planned("", "[shadow]\ncache = \"maps\"");
     EXPECT_EQ(p.method, "compressed");
     EXPECT_EQ(p.scope, "full");
+}
+
+// The smallest code that is as fast and is waited for once; no reason to build more than a frame asks for.
+TEST(ShadowMethods, CodeAutoIsMergedWhereTheWholeMapIsKept) {
+    const auto chosen = [](const std::string& keys, const std::string& extra = "") {
+        EXPECT_EQ(planned("shadow = {" + keys + "}", "", extra).method, "compressed") << keys;
+        const SceneDocument scene = read_scene_text(
+            "format = 1\ncamera = {eye_m = [0, 2, 8], look_at_m = [0, 1, 0]}\n[[light]]\nid = \"l\"\n"
+            "type = \"directional\"\nazimuth_deg = 120\nelevation_deg = 30\nshadow = {" +
+                keys + "}\n" + extra + "\n",
+            "s.toml");
+        return chosen_code(light_of(*subtables(scene.root, "light").at(0)).shadow);
+    };
+    const std::string automatic = "code = \"auto\"", one_tap = automatic + ", filter_px = 1",
+                      for_all = "[shadow]\ncache = \"maps\"";
+    EXPECT_EQ(chosen(automatic).code, ShadowCode::mh);
+    EXPECT_EQ(chosen(automatic + ", scope = \"full\"").code, ShadowCode::mh);
+    EXPECT_EQ(chosen(one_tap + ", cache = \"maps\"").code, ShadowCode::mmh);
+    EXPECT_EQ(chosen(one_tap, for_all).code, ShadowCode::mmh);
+    EXPECT_EQ(chosen(one_tap + ", scope = \"frame\"", for_all).code, ShadowCode::mh);
+    EXPECT_EQ(chosen(one_tap + ", cache = \"maps\", top_levels = 5").code, ShadowCode::mh);
+    EXPECT_EQ(chosen(one_tap + ", cache = \"maps\", top_levels = 7").code, ShadowCode::mmh);
+    EXPECT_EQ(chosen(automatic + ", cache = \"maps\"").code, ShadowCode::mh) << "the default kernel";
+    EXPECT_EQ(chosen(automatic + ", cache = \"maps\", filter_px = 5").code, ShadowCode::mh);
+    for (const char* keys : {"", ", cache = \"maps\"", ", cache = \"maps\", top_levels = 2"})
+        EXPECT_NE(chosen(one_tap + keys).reason, nullptr) << keys;
+
+    // What is asked for is taken, and nothing is to be told.
+    for (const ShadowCodeName& row : shadow_code_names) {
+        const CodeChoice asked = chosen(std::string("cache = \"maps\", code = \"") + row.name + "\"");
+        EXPECT_EQ(asked.code, row.code);
+        EXPECT_EQ(asked.reason, nullptr);
+    }
+    EXPECT_THROW(chosen(automatic + ", layout = \"words16\""), InputError) << "of mh alone";
+    const CodeChoice plain = chosen("cache = \"maps\"");
+    EXPECT_EQ(plain.code, ShadowCode::mh);
+    EXPECT_EQ(plain.reason, nullptr);
 }
 
 TEST(ShadowMethods, WhatIsAskedForStays) {
