@@ -14,6 +14,7 @@
 #include "app/scene/build.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/keys.h"
+#include "app/scene/shadow_code.h"
 #include "core/error.h"
 #include "tests/scene/key_probe.h"
 
@@ -100,6 +101,9 @@ TEST(Kept, FilesOfTreesNoticeEveryKeyOfTheirLight) {
             try {
                 const SceneLight now = made_for(scene, {"light.l.shadow." + key.name + "=" + value}).light;
                 if (now == before || now.shadow.resolution == auto_resolution) continue;
+                // "auto" has the file of the code that it takes.
+                if (key.name == "code" && chosen_code(now.shadow).code == chosen_code(before.shadow).code)
+                    continue;
                 ++changes;
                 EXPECT_EQ(key_of(now) == key_of(before), idle.contains(key.name))
                     << key.name << " = " << value;
