@@ -159,7 +159,7 @@ SceneValue checked_text(const KeySpec& key, const SceneValue& value, const Sourc
     if (!fits)
         fail_at(value.place, sources,
                 fmt::format("'{}' must be {}, not \"{}\"{}", key.name, allowed_text(key),
-                            s->size() <= 64 ? *s : s->substr(0, 61) + "...", hint(*s, key.choices)));
+                            s->size() <= 64 ? *s : fmt::format("{:.61}...", *s), hint(*s, key.choices)));
     return value;
 }
 
