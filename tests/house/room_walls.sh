@@ -37,7 +37,8 @@ lessons          core/sky optics stereo stereo/thesis scenes raster/exact hierar
 bench/embree     core
 bench/harness    app/scene
 bench/raster     app/frame bench/harness bench/embree
-bench/shadows    app/frame hierarchy/stack bench/harness bench/embree
+bench/peer_codes raster
+bench/shadows    app/frame hierarchy/stack bench/harness bench/embree bench/peer_codes
 bench/diffraction bench/harness
 bench/stereo     bench/harness
 bench            bench/raster bench/shadows bench/diffraction bench/stereo
