@@ -6,6 +6,8 @@
 #include <bit>
 #include <cmath>
 #include <random>
+#include <string>
+#include <tuple>
 
 #include "app/frame/scene_light.h"
 #include "filters/tree_pcf.h"
@@ -92,7 +94,11 @@ TEST_P(Levels, AreTheMapsOfDescentsThatStopThere) {
     EXPECT_GT(differing, 200) << "the two samples of the blend must be two";
 }
 INSTANTIATE_TEST_SUITE_P(Kernels, Levels,
-                         testing::Combine(testing::Values(1, 3, 5), testing::ValuesIn(code_cases)));
+                         testing::Combine(testing::Values(1, 3, 5), testing::ValuesIn(code_cases)),
+                         [](const auto& one) {
+                             return std::to_string(std::get<0>(one.param)) + "_" +
+                                    std::get<1>(one.param).name;
+                         });
 
 TEST(TreePcfLevels, ReachTheRootAndGoNoFurther) {
     const MultiresTree tree = build_bottom_up(chosen::patchy_intervals(16, 5).view());

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <string>
+#include <tuple>
 
 #include "app/frame/scene_light.h"
 #include "hierarchy/codes/codes.h"
@@ -104,7 +106,11 @@ TEST_P(TreePcf, EqualsTheDenseMapAtEveryAlignmentAndBorder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(DenseKernels, TreePcf,
-                         testing::Combine(testing::Values(4, 8, 32), testing::Values(1, 3, 5)));
+                         testing::Combine(testing::Values(4, 8, 32), testing::Values(1, 3, 5)),
+                         [](const auto& one) {
+                             return std::to_string(std::get<0>(one.param)) + "_" +
+                                    std::to_string(std::get<1>(one.param));
+                         });
 
 class TreePcfKernels : public testing::TestWithParam<int> {};
 
