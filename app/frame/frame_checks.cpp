@@ -92,19 +92,13 @@ void FrameChecks::check_lens(const Scene& scene, int frame) const {
 
 void FrameChecks::check_stacks(const Scene& scene, int frame) const {
     const std::vector<const SceneTable*> lights = subtables(document.root, "light");
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const SceneLight& light = scene.lights[i];
-        if (light.shadow.method != ShadowMethod::stack || !casts_shadows(light)) continue;
-        try {
-            plan_stack(scene.mesh, light);
-        } catch (const InputError& error) {
-            const Place place = animated_place(light_at(document, *lights[i], frame), *lights[i],
-                                               {"position_m", "look_at_m", "azimuth_deg", "elevation_deg"})
-                                    .value_or(place_of(subtable(*lights[i], "shadow"), "method"));
-            fail_at(place, document.sources,
-                    fmt::format("{}{}: {}", frame_text(document, frame), error.file, error.message));
-        }
-    }
+    check_stack_plans(scene, [&](std::size_t light, const std::string& why) {
+        const SceneTable& table = *lights[light];
+        const Place place = animated_place(light_at(document, table, frame), table,
+                                           {"position_m", "look_at_m", "azimuth_deg", "elevation_deg"})
+                                .value_or(place_of(subtable(table, "shadow"), "method"));
+        fail_at(place, document.sources, frame_text(document, frame) + why);
+    });
 }
 
 void FrameChecks::check(const Scene& scene, int frame, std::int64_t further_bytes) {

@@ -37,16 +37,9 @@ void check_caches(const SceneDocument& document, const FileAccess& access) {
 /// Refuses stacks of lights that have no plane of focus, in the first frame.
 void check_stacks(const SceneDocument& document, const Scene& scene) {
     const std::vector<const SceneTable*> lights = subtables(document.root, "light");
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const SceneLight& light = scene.lights[i];
-        if (light.shadow.method != ShadowMethod::stack || !casts_shadows(light)) continue;
-        try {
-            plan_stack(scene.mesh, light);
-        } catch (const InputError& error) {
-            fail_at(place_of(subtable(*lights[i], "shadow"), "method"), document.sources,
-                    fmt::format("{}: {}", error.file, error.message));
-        }
-    }
+    check_stack_plans(scene, [&](std::size_t light, const std::string& why) {
+        fail_at(place_of(subtable(*lights[light], "shadow"), "method"), document.sources, why);
+    });
 }
 
 /// What `estimate` gives; a lens whose pattern is out of reach is told at the place that describes it.

@@ -10,6 +10,7 @@
 
 #include "app/frame/shadow_cache.h"
 #include "app/frame/shadow_text.h"
+#include "app/frame/shadows.h"
 #include "app/frame/stack_tile.h"
 #include "core/error.h"
 #include "core/num.h"
@@ -170,6 +171,19 @@ StackPlan plan_stack(const Mesh& mesh, const SceneLight& light) {
     plan.focus = best->focus;
     plan.focus.resolution = std::max(light.shadow.resolution, least_map_resolution);
     return plan;
+}
+
+void check_stack_plans(const Scene& scene,
+                       const std::function<void(std::size_t light, const std::string& why)>& refuse) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const SceneLight& light = scene.lights[i];
+        if (light.shadow.method != ShadowMethod::stack || !casts_shadows(light)) continue;
+        try {
+            plan_stack(scene.mesh, light);
+        } catch (const InputError& error) {
+            refuse(i, fmt::format("{}: {}", error.file, error.message));
+        }
+    }
 }
 
 FocusedViews stack_views(const Mesh& mesh, const StackPlan& plan, int resolution) {

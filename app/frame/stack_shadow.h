@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,11 @@ struct StackPlan {
 /// lies in it stays where it is in all maps. Throws InputError when there is none: where more than an eighth
 /// of what the light may shine on lies beside or behind it, or too near, its maps do not see it.
 StackPlan plan_stack(const Mesh& mesh, const SceneLight& light);
+
+/// Plans the stack of every light that has one. `refuse(index of the light, why)` is called, and throws,
+/// where a light has no plane.
+void check_stack_plans(const Scene& scene,
+                       const std::function<void(std::size_t light, const std::string& why)>& refuse);
 
 /// The views of a plan at this resolution.
 FocusedViews stack_views(const Mesh& mesh, const StackPlan& plan, int resolution);
