@@ -48,16 +48,17 @@ std::string drawn(Draw& draw, const TableSpec& spec, double share, const std::st
 
 struct Subject {
     const char* name;
-    double share;  ///< of its keys
-    int few;       ///< scenes that are made
-    int more;      ///< times as many of all cases, and OBSCURA_SLOW_TESTS times that
+    double share;          ///< of its keys
+    int few;               ///< scenes that are made
+    int more;              ///< times as many of all cases, and OBSCURA_SLOW_TESTS times that
+    int memory_mib = 700;  ///< limit of the scenes behind the first `few` draws, which have 700
 };
 
 const std::string sane_camera = "[camera]\neye_m = [4, 3, 6]\nlook_at_m = [0, 0.5, 0]\n";
 const std::string sane_sun =
     "[[light]]\nid = \"sun\"\ntype = \"directional\"\nazimuth_deg = 135\nelevation_deg = 40\n";
 
-std::string drawn_scene(Draw& draw, const std::string& subject, double share) {
+std::string drawn_scene(Draw& draw, const std::string& subject, double share, int memory_mib) {
     const std::string shadow = drawn(draw, shadow_table(), share, "[shadow.sun]\n", {"cache"});
     const auto if_it = [&](const char* name, const TableSpec& table, const std::string& header,
                            const std::vector<std::string>& without, const std::string& otherwise) {
@@ -65,7 +66,7 @@ std::string drawn_scene(Draw& draw, const std::string& subject, double share) {
     };
     std::string text = "format = 1\n" + if_it("camera", camera_table(), "[camera]\n", {}, sane_camera);
     text += if_it("render", render_table(), "[render]\n", {"size_px"}, "[render]\nsamples = 1\n");
-    text += "size_px = [32, 18]\n[limits]\nmemory_mib = 700\n";
+    text += "size_px = [32, 18]\n[limits]\nmemory_mib = " + std::to_string(memory_mib) + "\n";
     if (subject == "light" || (subject == "shadow" && draw.chance() < 0.6)) {
         text += drawn(draw, light_table(), subject == "light" ? share : 0.1, "[[light]]\nid = \"sun\"\n",
                       {"id", "shadow"});
@@ -104,7 +105,8 @@ TEST_P(FrameRanges, WhatTheRowsAllowIsMadeOrRefused) {
     int made = 0, refused = 0, too_large = 0;
     for (int i = 0; i < 100 * wanted && made < wanted && !HasFailure(); ++i) {
         Draw draw(static_cast<std::uint64_t>(i));
-        const std::string text = drawn_scene(draw, GetParam().name, GetParam().share);
+        const int memory_mib = i < GetParam().few ? 700 : GetParam().memory_mib;
+        const std::string text = drawn_scene(draw, GetParam().name, GetParam().share, memory_mib);
         scene_at_work = "draw " + std::to_string(i) + ":\n" + text;
         SCOPED_TRACE(scene_at_work);
         try {
@@ -123,11 +125,11 @@ TEST_P(FrameRanges, WhatTheRowsAllowIsMadeOrRefused) {
     EXPECT_EQ(made, wanted);
 }
 
-// A lens's pattern takes seconds, however small the picture is.
+// A lens's pattern takes seconds where limits let it, however small the picture is.
 INSTANTIATE_TEST_SUITE_P(Tables, FrameRanges,
                          testing::Values(Subject{"camera", 0.3, 20, 25}, Subject{"render", 0.5, 15, 25},
                                          Subject{"light", 0.3, 40, 25}, Subject{"shadow", 0.15, 60, 25},
-                                         Subject{"sky", 0.3, 10, 25}, Subject{"optics", 0.1, 4, 2},
+                                         Subject{"sky", 0.3, 10, 25}, Subject{"optics", 0.1, 4, 25, 150},
                                          Subject{"material", 0.5, 15, 25}),
                          [](const auto& one) { return std::string(one.param.name); });
 
