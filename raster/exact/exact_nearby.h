@@ -87,24 +87,27 @@ struct Nearby {
     static OBSCURA_INLINE float abs_of(float v) { return v < 0 ? -v : v; }
 };
 
-/// Collects what is near the bunches; false when there is no room for all of it.
+/// Collects what is near the bunches; false, and nothing collected, when there is no room for all of it.
 OBSCURA_INLINE bool collect(const ExactLight& light, const ExactView& view, const Bunch* bunch, int n,
                             Nearby& nearby, ExactCounts& counts) {
     Extent all = bunch[0].extent;
     for (int b = 1; b < n; ++b)
         all = united(all, bunch[b].extent);
-    nearby.count = 0;
-    bool fits = true;
-    walk(view, all, counts.groups, [&](const CasterBoxes& boxes, std::uint32_t first, int k) {
-        fits = nearby.count < Nearby::room;
-        if (fits) {
-            const std::uint32_t index = first + static_cast<std::uint32_t>(k);
-            nearby.add(view.triangles[index], light, boxes, index, k);
-        }
-        return fits;
+    // Indices alone at first: where leaves are, most walks end without room.
+    int found = 0;
+    walk(view, all, counts.groups, [&](const CasterBoxes&, std::uint32_t first, int k) {
+        if (found < Nearby::room) nearby.triangle[found] = first + static_cast<std::uint32_t>(k);
+        return ++found <= Nearby::room;
     });
+    nearby.count = 0;
+    if (found > Nearby::room) return false;
+    while (nearby.count < found) {
+        const std::uint32_t index = nearby.triangle[nearby.count];
+        nearby.add(view.triangles[index], light, view.boxes[0][index / 16], index,
+                   static_cast<int>(index % 16));
+    }
     nearby.close();
-    return fits;
+    return true;
 }
 
 /// Triangles near one bunch beyond which its samples had better be taken in an order of their own.
