@@ -24,6 +24,7 @@
 #include "app/frame/stack_shadow.h"
 #include "app/frame/sun_hours.h"
 #include "app/frame/sun_hours_text.h"
+#include "app/frame/tree_shadow.h"
 #include "app/glare/glare_margin.h"
 #include "app/pair/pair.h"
 #include "app/report/lens_text.h"
@@ -71,82 +72,6 @@ std::string picture_text(const SceneDocument& document, const Scene& scene) {
     return out;
 }
 
-/// ", texels of 34 mm": how fine the parallel light's map is; it covers all of the scene.
-std::string texel_text(const SceneLight& light, const Scene& scene) {
-    if (!is_parallel(light.light.kind) || scene.mesh.triangles.empty()) return "";
-    const int n = light.shadow.resolution;
-    const LightView view =
-        light.shadow.method == ShadowMethod::map
-            ? shadow_views(light, bounds_of(scene.mesh))[0]
-            : fitted_shadow_views(light, caster_box(scene.mesh, light.light.direction), n)[0];
-    return fmt::format(", texels of {:.3g} mm", 1000 * texel_size_m(view));
-}
-
-std::string tree_text(const SceneLight& light) {
-    const ShadowSettings& s = light.shadow;
-    std::string out = s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
-    const ShadowCode code = chosen_code(s).code;
-    if (code != ShadowCode::mh) out += fmt::format(" as {}", name_of(code));
-    if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
-    return out + (s.filter == ShadowFilter::pcf ? "" : ", filtered hierarchically");
-}
-
-/// Whether something casts shadows that is not the outside of a solid.
-bool open_casters(const Mesh& mesh) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const bool casts = mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow;
-        if (casts && !mesh.components[mesh.component[t]].closed) return true;
-    }
-    return false;
-}
-
-std::size_t caster_count(const Mesh& mesh) {
-    std::size_t casters = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-        casters += mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow ? 1 : 0;
-    return casters;
-}
-
-std::int64_t samples_of_picture(const Scene& scene) {
-    const std::int64_t margin = glare_margin(scene);
-    return (scene.render.width + 2 * margin) * (scene.render.height + 2 * margin) * scene.render.samples;
-}
-
-/// What exact shadows take, in triangles and samples; seconds are the machine's.
-std::string exact_text(const SceneLight& light, const Scene& scene) {
-    const int views = shadow_map_count(light);
-    std::string soft;
-    if (is_soft(light)) {
-        soft = light.shadow.samples == auto_samples
-                   ? fmt::format("; as many points of the light as its penumbrae are wide, 1 to {}",
-                                 most_auto_samples)
-                   : fmt::format("; {} points of the light", light.shadow.samples);
-    }
-    return fmt::format(
-        ", shadows of the picture's own samples, exact: {} to put in order{}, up to {} to look up{}",
-        count_text(caster_count(scene.mesh), "triangle"), views > 1 ? fmt::format(" in {} views", views) : "",
-        count_text(samples_of_picture(scene), "sample"), soft);
-}
-
-/// What is to be built once, and asked in every frame.
-std::string stack_text(const SceneLight& light, const std::optional<FoundResolution>& found,
-                       const Scene& scene) {
-    const ShadowSettings& s = light.shadow;
-    std::string out = fmt::format(", a stack of {} shadow maps", s.samples);
-    if (s.resolution == auto_resolution) return out + ", resolution auto\n";
-    out += fmt::format(" of {} x {}", s.resolution, s.resolution);
-    if (found) out += " (" + resolution_text(*found) + ")";
-    const auto casters = static_cast<std::int64_t>(caster_count(scene.mesh));
-    const Vec3d normal = plan_stack(scene.mesh, light).focus.plane_normal;
-    out += normal == Vec3d{0, 1, 0} ? ", aimed at a level plane" : ", aimed at a plane that faces it";
-    out += fmt::format(": {} to build {} times, once, {} to look up a frame, all maps each",
-                       count_text(casters, "triangle"), s.samples,
-                       count_text(samples_of_picture(scene), "sample"));
-    if (!s.cache.empty()) out += fmt::format("; kept in {}", s.cache);
-    return out + fmt::format("; about {}, {} more meanwhile\n", size_text(stack_bytes(light, casters)),
-                             size_text(stack_work_bytes(light, casters)));
-}
-
 /// Whether a stack of the light, which is kept for all frames, would take less time than `exact`.
 bool stack_pays(const SceneDocument& document, const SceneLight& light, const Scene& scene) {
     const bool somewhere =
@@ -177,19 +102,10 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
                        const Scene& scene, const std::string& reason) {
     std::string out = fmt::format("light     {}: {}", light.light.id, light_kind_name(light.light.kind));
     if (light.light.below_horizon) out += ", below the horizon in the first frame";
-    const int maps = shadow_map_count(light);
-    if (maps == 0) return out + ", no shadows\n";
-    const std::string why = method_text(light.shadow, reason);
-    if (light.shadow.method == ShadowMethod::exact) return out + exact_text(light, scene) + '\n' + why;
-    if (light.shadow.method == ShadowMethod::stack) return out + stack_text(light, found, scene) + why;
-    const bool dense = light.shadow.method == ShadowMethod::map;
-    out += fmt::format(", {} {} shadow map{}", maps, dense ? "dense" : "compressed", maps == 1 ? "" : "s");
-    if (light.shadow.resolution == auto_resolution) return out + ", resolution auto\n" + why;
-    const int n = light.shadow.resolution;
-    out += fmt::format(" of {} x {}{}, filter {} x {}{}", n, n, texel_text(light, scene),
-                       light.shadow.filter_px, light.shadow.filter_px, dense ? "" : tree_text(light));
-    out += fmt::format(", {}{}\n", dense ? "" : "about ", size_text(built_map_bytes(light, scene.render)));
-    out += why;
+    if (light.shadow.method == ShadowMethod::none) return out + ", no shadows\n";
+    const ShadowMethodRow& row = row_of(light.shadow.method);
+    out += row.plan(light, found, scene) + '\n' + method_text(light.shadow, reason);
+    if (!row.maps_middle || light.shadow.resolution == auto_resolution) return out;
     if (has_size(light.light)) {
         out += fmt::format(
             "note      light '{}': maps see its middle alone, so its shadows are hard; "
@@ -198,12 +114,8 @@ std::string light_text(const SceneLight& light, const std::optional<FoundResolut
     }
     if (found) out += fmt::format("          {}\n", resolution_text(*found));
     if (found && tells_cap(light, *found)) out += fmt::format("note      {}\n", capped_text(light, *found));
-    if (!dense && light.shadow.receivers == Receivers::any && open_casters(scene.mesh)) {
-        out += fmt::format(
-            "note      light '{}': open surfaces under receivers = \"any\": the tree may need {} x {} "
-            "nodes\n",
-            light.light.id, n, n);
-    }
+    if (const std::string note = open_casters_note(light, scene); !note.empty())
+        out += fmt::format("note      {}\n", note);
     return out;
 }
 

@@ -11,5 +11,8 @@ bool make_dense_shadow(const ShadowWork& work, const TreeNeeds* needs, std::int6
 void give_dense_shadow(const ShadowWork& work, const LightShadow& shadow, const TileScene& tiles,
                        TileLight& light);
 std::string dense_shadow_text(const LightShadowStats& stats);
+ShadowBytes dense_shadow_bytes(const SceneLight& light, const MeshSize& mesh, const RenderSettings& render);
+std::string dense_plan_text(const SceneLight& light, const std::optional<FoundResolution>& found,
+                            const Scene& scene);
 
 }  // namespace obscura

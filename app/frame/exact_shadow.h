@@ -11,5 +11,8 @@ bool make_exact_shadow(const ShadowWork& work, const TreeNeeds* needs, std::int6
 void give_exact_shadow(const ShadowWork& work, const LightShadow& shadow, const TileScene& tiles,
                        TileLight& light);
 std::string exact_shadow_text(const LightShadowStats& stats);
+ShadowBytes exact_shadow_bytes(const SceneLight& light, const MeshSize& mesh, const RenderSettings& render);
+std::string exact_plan_text(const SceneLight& light, const std::optional<FoundResolution>& found,
+                            const Scene& scene);
 
 }  // namespace obscura

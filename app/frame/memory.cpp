@@ -37,10 +37,10 @@ std::int64_t picture_bytes(const RenderSettings& render, const FrameOptions& wan
 
 /// What the threads hold: a tile each, and in shadow maps the layers of one. Layers begin at 12 per texel (8,
 /// and half as many again) and grow only where more surfaces lie behind one another.
-std::int64_t thread_bytes(bool maps) {
+std::int64_t thread_bytes(bool layers) {
     constexpr std::int64_t layer_bytes =
         std::int64_t{layer_tile_texels} * layers_in_place * 3 / 2 * (sizeof(LayerKey) + sizeof(std::int32_t));
-    return hardware_threads() * (std::int64_t{sizeof(TileWork)} + (maps ? layer_bytes : 0));
+    return hardware_threads() * (std::int64_t{sizeof(TileWork)} + (layers ? layer_bytes : 0));
 }
 
 /// Tables of surfaces and the camera's setup, which serve every step.
@@ -82,32 +82,38 @@ MemoryEstimate estimate_memory(const Scene& scene, const KnownNeeds& known) {
     // As it was read, and as frames ask it.
     if (scene.sky.image)
         e.textures += static_cast<std::int64_t>(2 * scene.sky.image->pixels.pixels.size() * sizeof(Vec3f));
-    bool maps = false;
-    std::int64_t dense = 0;  // whole blocks, which leave nothing over
+    const ShadowBytes shadows = shadow_bytes(mesh, lights, wide);
+    e.shadow_maps += shadows.kept;
+    bool layers = false;
+    std::int64_t making_stacks = 0, whole_blocks = 0;  // which leave nothing over
     for (const SceneLight& light : lights) {
-        const std::int64_t bytes = built_map_bytes(light, wide);
-        e.shadow_maps += bytes;
-        if (light.shadow.method == ShadowMethod::map) dense += bytes;
-        maps |= light.shadow.method != ShadowMethod::none && light.shadow.method != ShadowMethod::exact;
+        if (light.shadow.method == ShadowMethod::none) continue;
+        const ShadowMethodRow& row = row_of(light.shadow.method);
+        const ShadowBytes one = row.bytes(light, mesh, wide);
+        if (row.whole_blocks) whole_blocks += one.kept;
+        if (light.shadow.method == ShadowMethod::stack) {
+            e.stacks += one.kept;
+            making_stacks = std::max(making_stacks, one.making);
+        }
+        layers |= row.uses_layers;
     }
+    e.stacks += making_stacks;
     // Hours of sun come after the picture, pass after pass as lights with a size do.
     const int suns = suns_of(scene, known.channels);
     e.shadow_maps +=
-        exact_casters_bytes(mesh, lights) + stacks_bytes(mesh, lights) +
         std::max(soft_passes_bytes(mesh, lights, scene.sky, wide), sun_hours_pass_bytes(mesh, suns));
-    e.stacks = stacks_bytes(mesh, lights) + making_stacks_bytes(mesh, lights);
     // First the shadows are made, then the picture, then its glare. A quarter of what shadows took is lists
     // in small blocks, which stay with the threads.
     const std::int64_t making =
-        std::max(shadow_work_bytes(mesh, lights, wide), exact_work_bytes(mesh, lights, scene.sky));
+        std::max(shadows.lists + shadows.making, exact_work_bytes(mesh, lights, scene.sky));
     const std::int64_t picture =
         picture_bytes(wide, known.channels) +
         std::max(glare_bytes(scene.optics, scene.render, margin, lamp_count(scene), known.bright_px),
                  suns > 0 ? sun_hours_sums_bytes(scene.render) : 0);
-    e.frame = prepared_bytes(mesh, wide) + kept_setup_bytes(mesh, lights) + thread_bytes(maps) +
+    e.frame = prepared_bytes(mesh, wide) + shadows.setup + thread_bytes(layers) +
               std::max(exact_tiles_bytes(lights, scene.sky), sun_hours_tiles_bytes(mesh, suns)) +
               std::max(making, making / 4 + picture);
-    e.frame += allocator_bytes(e.total() - dense);
+    e.frame += allocator_bytes(e.total() - whole_blocks);
     return e;
 }
 
@@ -122,8 +128,10 @@ MemoryEstimate estimate_memory(const SceneDocument& document) {
     // Lamps are counted, and known to be bright, when their meshes are there.
     const int margin = glare_margin(optics, render, 0);
     const RenderSettings wide = widened(render, margin);
-    for (const SceneTable* light : subtables(document.root, "light"))
-        e.shadow_maps += built_map_bytes(light_of(*light), wide);
+    for (const SceneTable* table : subtables(document.root, "light")) {
+        const SceneLight light = light_of(*table);
+        e.shadow_maps += shadow_bytes({}, std::span(&light, 1), wide).kept;
+    }
     e.frame = picture_bytes(wide, {}) + glare_bytes(optics, render, margin, 0, {});
     return e;
 }

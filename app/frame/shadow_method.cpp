@@ -11,10 +11,46 @@ namespace obscura {
 namespace {
 
 constexpr ShadowMethodRow rows[] = {
-    {ShadowMethod::map, nullptr, make_dense_shadow, give_dense_shadow, dense_shadow_text},
-    {ShadowMethod::compressed, tree_resolution, make_tree_shadow, give_tree_shadow, tree_shadow_text},
-    {ShadowMethod::exact, nullptr, make_exact_shadow, give_exact_shadow, exact_shadow_text},
-    {ShadowMethod::stack, stack_resolution, make_stack_shadow, give_stack_shadow, stack_shadow_text},
+    {.method = ShadowMethod::map,
+     .maps_middle = true,
+     .whole_blocks = true,
+     .uses_layers = true,
+     .bytes = dense_shadow_bytes,
+     .plan = dense_plan_text,
+     .query = nullptr,
+     .make = make_dense_shadow,
+     .give = give_dense_shadow,
+     .text = dense_shadow_text},
+    {.method = ShadowMethod::compressed,
+     .maps_middle = true,
+     .whole_blocks = false,
+     .uses_layers = true,
+     .bytes = tree_shadow_bytes,
+     .plan = tree_plan_text,
+     .query = tree_resolution,
+     .make = make_tree_shadow,
+     .give = give_tree_shadow,
+     .text = tree_shadow_text},
+    {.method = ShadowMethod::exact,
+     .maps_middle = false,
+     .whole_blocks = false,
+     .uses_layers = false,
+     .bytes = exact_shadow_bytes,
+     .plan = exact_plan_text,
+     .query = nullptr,
+     .make = make_exact_shadow,
+     .give = give_exact_shadow,
+     .text = exact_shadow_text},
+    {.method = ShadowMethod::stack,
+     .maps_middle = false,
+     .whole_blocks = false,
+     .uses_layers = true,
+     .bytes = stack_shadow_bytes,
+     .plan = stack_plan_text,
+     .query = stack_resolution,
+     .make = make_stack_shadow,
+     .give = give_stack_shadow,
+     .text = stack_shadow_text},
 };
 
 }  // namespace
@@ -24,6 +60,10 @@ const ShadowMethodRow& row_of(ShadowMethod method) {
         if (row.method == method) return row;
     CHECK(false, "a light without shadows has none to make");
     return rows[0];
+}
+
+std::span<const ShadowMethodRow> shadow_methods() {
+    return rows;
 }
 
 bool wants_auto(const SceneLight& light) {

@@ -14,6 +14,7 @@
 #include "app/frame/render_frame.h"
 #include "app/frame/shadow_resolution.h"
 #include "app/frame/tile.h"
+#include "core/mesh_memory.h"
 #include "hierarchy/needed_nodes.h"
 
 namespace obscura {
@@ -33,8 +34,24 @@ struct ShadowWork {
 /// What the pictures look up of each of a light's views; none: so much that all of it is built.
 using TreeNeeds = std::optional<std::vector<NeededNodes>>;
 
+/// What a light's shadow takes, expected, in bytes.
+struct ShadowBytes {
+    std::int64_t kept = 0;    ///< while frames are rendered
+    std::int64_t lists = 0;   ///< until the shadows of all lights are made
+    std::int64_t making = 0;  ///< meanwhile, one light after another
+    std::int64_t setup = 0;   ///< kept with the frame for the next, by all lights of the method together
+};
+
 struct ShadowMethodRow {
     ShadowMethod method;
+    bool maps_middle;   ///< maps of a light's middle alone: shadows of lights with a size are hard
+    bool whole_blocks;  ///< `kept` lies in blocks that leave the allocator nothing over
+    bool uses_layers;   ///< maps are made from the layers of tiles, one in every thread
+    ShadowBytes (*bytes)(const SceneLight& light, const MeshSize& mesh, const RenderSettings& render);
+    /// What `check` tells of it before it is made, from behind the light's kind to before the end of the
+    /// line.
+    std::string (*plan)(const SceneLight& light, const std::optional<FoundResolution>& found,
+                        const Scene& scene);
     /// Finds what resolution = "auto" is; null: there is none to find.
     ResolutionQuery (*query)(const Scene& scene, const SceneLight& light);
     /// Makes shadow.light's shadow, or reads it from its file, and counts it. `needs`: of a tree that is
@@ -50,6 +67,8 @@ struct ShadowMethodRow {
 
 /// Of every method but `none`.
 const ShadowMethodRow& row_of(ShadowMethod method);
+
+std::span<const ShadowMethodRow> shadow_methods();
 
 /// Whether the picture is to say how fine the light's map is.
 bool wants_auto(const SceneLight& light);

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include "app/frame/shadow_method.h"
+#include "app/glare/glare_margin.h"
 #include "app/scene/shadow_code.h"
+#include "core/count_text.h"
 #include "hierarchy/codes/codes.h"
+#include "raster/shadow_map.h"
 
 namespace obscura {
 namespace {
@@ -61,6 +64,32 @@ std::string maps_text(const LightShadowStats& s, const std::string& extent) {
                              s.kept         ? ", kept"
                              : s.from_cache ? ", from the cache"
                                             : "");
+}
+
+std::string maps_plan_text(const SceneLight& light, const char* kind, std::span<const LightView> views) {
+    const ShadowSettings& s = light.shadow;
+    const int maps = shadow_view_count(light.light.kind);
+    std::string out = fmt::format(", {} {} shadow map{}", maps, kind, maps == 1 ? "" : "s");
+    if (s.resolution == auto_resolution) return out + ", resolution auto";
+    out += fmt::format(" of {} x {}", s.resolution, s.resolution);
+    // How fine the parallel light's map is; it covers all of the scene.
+    if (is_parallel(light.light.kind) && !views.empty())
+        out += fmt::format(", texels of {:.3g} mm", 1000 * texel_size_m(views[0]));
+    return out + fmt::format(", filter {} x {}", s.filter_px, s.filter_px);
+}
+
+std::size_t caster_count(const Mesh& mesh) {
+    std::size_t casters = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+        casters += mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow ? 1 : 0;
+    return casters;
+}
+
+std::string picture_samples_text(const Scene& scene) {
+    const std::int64_t margin = glare_margin(scene);
+    return count_text(
+        (scene.render.width + 2 * margin) * (scene.render.height + 2 * margin) * scene.render.samples,
+        "sample");
 }
 
 std::string shadow_text(const LightShadowStats& s) {

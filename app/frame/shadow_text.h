@@ -1,10 +1,12 @@
 #pragma once
 // Shadows in words, for `render -v` and `check`.
 
+#include <span>
 #include <string>
 
 #include "app/frame/light_shadow_stats.h"
 #include "app/scene/scene.h"
+#include "raster/view.h"
 
 namespace obscura {
 
@@ -24,6 +26,14 @@ std::string smaller_tree_text(const ShadowSettings& shadow);
 
 /// "6 maps of 1024 x 1024 (auto: ...), EXTENT, 24.0 MiB, kept"; `extent`: from the comma on.
 std::string maps_text(const LightShadowStats& stats, const std::string& extent = "");
+
+/// ", 6 dense shadow maps of 1024 x 1024, texels of 34 mm, filter 3 x 3"; `views`: of the maps, or none.
+std::string maps_plan_text(const SceneLight& light, const char* kind, std::span<const LightView> views);
+
+/// Triangles that cast shadows.
+std::size_t caster_count(const Mesh& mesh);
+/// Samples of the scene's picture with its margin, as planned: "8294400 samples".
+std::string picture_samples_text(const Scene& scene);
 
 /// What `render -v` tells of one light: some indented lines.
 std::string shadow_text(const LightShadowStats& stats);

@@ -12,10 +12,12 @@
 #include "app/frame/shadow_text.h"
 #include "app/frame/shadows.h"
 #include "app/frame/stack_tile.h"
+#include "core/count_text.h"
 #include "core/error.h"
 #include "core/num.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
+#include "hierarchy/build_memory.h"
 #include "raster/light_samples.h"
 #include "raster/view.h"
 
@@ -26,7 +28,7 @@ namespace {
 constexpr int tried = 3;
 
 /// Of a node while octrees grow side by side, with maps and lists, and of one that is serialised, on average.
-constexpr std::int64_t node_work_bytes = 32 * tried, node_bytes = 5;
+constexpr std::int64_t node_work_bytes = 32 * tried, stack_node_bytes = 5;
 
 /// Share of what a light may shine on that its maps need not see.
 constexpr double most_unseen = 1.0 / 8;
@@ -226,8 +228,8 @@ bool build_light_stack(const Mesh& mesh, const FocusedViews& views, const Exec& 
     StackBuildParams params;
     params.receivers = shadow.light.shadow.receivers;
     params.tree.anisotropies = anisotropies_for(parallax_texels(mesh, views));
-    params.tree.max_nodes =
-        static_cast<std::uint64_t>(std::max<std::int64_t>(most_bytes, 0) / (node_work_bytes + node_bytes));
+    params.tree.max_nodes = static_cast<std::uint64_t>(std::max<std::int64_t>(most_bytes, 0) /
+                                                       (node_work_bytes + stack_node_bytes));
     try {
         shadow.stack = build_stack(mesh, views, params, exec, nullptr, cancel);
     } catch (const LimitError& error) {
@@ -305,8 +307,33 @@ std::string stack_shadow_text(const LightShadowStats& s) {
                      s.nodes.full, s.nodes.empty, s.nodes.leaf, s.anisotropy, s.build.build_s, s.lookup_s);
 }
 
+ShadowBytes stack_shadow_bytes(const SceneLight& light, const MeshSize& mesh, const RenderSettings&) {
+    ShadowBytes bytes;
+    bytes.kept = stack_bytes(light, mesh.triangles);
+    // Maps are made side by side, by every thread with a setup of its own.
+    bytes.making = hardware_threads() * construction_bytes(mesh) + stack_work_bytes(light, mesh.triangles);
+    return bytes;
+}
+
+std::string stack_plan_text(const SceneLight& light, const std::optional<FoundResolution>& found,
+                            const Scene& scene) {
+    const ShadowSettings& s = light.shadow;
+    std::string out = fmt::format(", a stack of {} shadow maps", s.samples);
+    if (s.resolution == auto_resolution) return out + ", resolution auto";
+    out += fmt::format(" of {} x {}", s.resolution, s.resolution);
+    if (found) out += " (" + resolution_text(*found) + ")";
+    const auto casters = static_cast<std::int64_t>(caster_count(scene.mesh));
+    const Vec3d normal = plan_stack(scene.mesh, light).focus.plane_normal;
+    out += normal == Vec3d{0, 1, 0} ? ", aimed at a level plane" : ", aimed at a plane that faces it";
+    out += fmt::format(": {} to build {} times, once, {} to look up a frame, all maps each",
+                       count_text(casters, "triangle"), s.samples, picture_samples_text(scene));
+    if (!s.cache.empty()) out += fmt::format("; kept in {}", s.cache);
+    return out + fmt::format("; about {}, {} more meanwhile", size_text(stack_bytes(light, casters)),
+                             size_text(stack_work_bytes(light, casters)));
+}
+
 std::int64_t stack_bytes(const SceneLight& light, std::int64_t triangles) {
-    return nodes_of(light, triangles) * node_bytes + (std::int64_t{light.shadow.samples} << 10);
+    return nodes_of(light, triangles) * stack_node_bytes + (std::int64_t{light.shadow.samples} << 10);
 }
 
 std::int64_t stack_work_bytes(const SceneLight& light, std::int64_t triangles) {

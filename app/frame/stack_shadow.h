@@ -64,6 +64,9 @@ bool make_stack_shadow(const ShadowWork& work, const TreeNeeds* needs, std::int6
 void give_stack_shadow(const ShadowWork& work, const LightShadow& shadow, const TileScene& tiles,
                        TileLight& light);
 std::string stack_shadow_text(const LightShadowStats& stats);
+ShadowBytes stack_shadow_bytes(const SceneLight& light, const MeshSize& mesh, const RenderSettings& render);
+std::string stack_plan_text(const SceneLight& light, const std::optional<FoundResolution>& found,
+                            const Scene& scene);
 
 /// Expected bytes of a finished stack, and of what making it holds beside that, with so many triangles that
 /// cast shadows. While its resolution is to be found, of the finest there may be.

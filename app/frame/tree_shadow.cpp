@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/frame/needed_texels.h"
 #include "app/frame/scene_light.h"
@@ -13,13 +14,53 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "filters/shadow_lookup.h"
+#include "hierarchy/build_memory.h"
 #include "hierarchy/codes/codes.h"
+#include "raster/lighting.h"
+#include "raster/shadow_map.h"
 
 namespace obscura {
 namespace {
 
 std::uint64_t top_bytes(const ShadowTree& tree) {
     return tree.top ? tree.top->size() * sizeof(TopNode) : 0;
+}
+
+/// Nodes of one view's tree, all of it. A model, not a bound: they grow with the length of the outlines on
+/// the map, that is with its side; 31 to 32 per texel of the side in the closed city of Scandolo, Bauszat and
+/// Eisemann 2016, more where there are many leaves. Construction stops at the limit. Nothing where the
+/// picture decides the resolution: it is found later.
+std::int64_t expected_nodes(const ShadowSettings& shadow) {
+    constexpr std::int64_t nodes_per_side = 32;
+    return std::min(nodes_per_side * shadow.resolution,
+                    std::int64_t{shadow.resolution} * shadow.resolution * 4 / 3);
+}
+
+/// Nodes of all of a light's trees, as far as they are built; `squares`: that the picture reads of them.
+std::int64_t built_nodes(const SceneLight& light, std::int64_t squares, const RenderSettings& render) {
+    const ShadowSettings& s = light.shadow;
+    const std::int64_t all = shadow_view_count(light.light.kind) * expected_nodes(s);
+    // A light whose collection is given up has all of its map built. Else nodes follow the outlines that the
+    // picture shows: 200 to 4000 per side of its samples were measured, most where there are leaves.
+    if (!is_of_one_picture(s) || squares >= most_needed_squares) return all;
+    const double side = std::sqrt(static_cast<double>(render.width) * render.height * render.samples);
+    const std::int64_t seen = std::min(static_cast<std::int64_t>(250 * side), 2 * squares);
+    return s.resolution == auto_resolution ? seen : std::min(all, seen);
+}
+
+std::int64_t expected_top_bytes(const SceneLight& light) {
+    if (light.shadow.resolution == auto_resolution) return 0;
+    return shadow_view_count(light.light.kind) * top_nodes_of(chosen_code(light.shadow).code) *
+           (std::int64_t{sizeof(TopNode)} << (2 * light.shadow.top_levels));
+}
+
+/// Whether something casts shadows that is not the outside of a solid.
+bool open_casters(const Mesh& mesh) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const bool casts = mesh.objects.empty() || mesh.objects[mesh.object[t]].casts_shadow;
+        if (casts && !mesh.components[mesh.component[t]].closed) return true;
+    }
+    return false;
 }
 
 /// Nodes that a tree may have for its construction in this code to stay within `bytes`.
@@ -168,6 +209,65 @@ void give_tree_shadow(const ShadowWork& work, const LightShadow& shadow, const T
     light.pcf = pcf_light(shadow.light, std::span(shadow.trees), work.scene.camera.eye);
     if (shadow.light.shadow.filter == ShadowFilter::hierarchical)
         filter_hierarchically(*light.pcf, tiles.rays);
+}
+
+std::int64_t expected_squares(const ShadowSettings& shadow, std::int64_t maps, const RenderSettings& render) {
+    const std::int64_t pixels = std::int64_t{render.width} * render.height;
+    // Of texels as large as pixels, neighbouring samples read the same squares; of small ones each its own.
+    const std::int64_t fifths = shadow.max_magnification < 0.5 ? 8 * render.samples
+                                : render.samples >= 16         ? 40
+                                : render.samples >= 4          ? 15
+                                                               : 6;
+    const std::int64_t read = pixels * fifths / 5;
+    const std::int64_t blocks = (std::int64_t{shadow.resolution} + 7) / 8;
+    // Hierarchical kernels read coarser squares, too: a third more of them.
+    const std::int64_t there =
+        shadow.resolution == auto_resolution ? most_needed_squares : maps * blocks * blocks * 4 / 3 + 1;
+    return std::min({read, there, most_needed_squares});
+}
+
+ShadowBytes tree_shadow_bytes(const SceneLight& light, const MeshSize& mesh, const RenderSettings& render) {
+    // A word holds sixteen squares, of which a quarter are read; a code is one square. Codes of all lights
+    // stay until their trees are made, and one light's words are there twice while they are sorted.
+    constexpr std::int64_t word_bytes = sizeof(std::uint64_t) / 4, code_bytes = sizeof(std::uint64_t);
+    const ShadowSettings& s = light.shadow;
+    const std::int64_t maps = shadow_view_count(light.light.kind);
+    const std::int64_t squares = is_of_one_picture(s) ? expected_squares(s, maps, render) : 0;
+    const std::int64_t nodes = built_nodes(light, squares, render);
+    ShadowBytes bytes;
+    bytes.kept = nodes * node_bytes + expected_top_bytes(light);
+    bytes.lists = squares * (word_bytes + code_bytes);
+    // One view's tree at a time.
+    bytes.making = std::max(
+        construction_bytes(mesh) + nodes / maps * row_of(chosen_code(s).code).node_construction_bytes,
+        squares * 2 * word_bytes);
+    return bytes;
+}
+
+std::string tree_plan_text(const SceneLight& light, const std::optional<FoundResolution>&,
+                           const Scene& scene) {
+    const ShadowSettings& s = light.shadow;
+    std::vector<LightView> views;
+    if (s.resolution != auto_resolution && !scene.mesh.triangles.empty())
+        views = fitted_shadow_views(light, caster_box(scene.mesh, light.light.direction), s.resolution);
+    std::string out = maps_plan_text(light, "compressed", views);
+    if (s.resolution == auto_resolution) return out;
+    out += s.scope == ShadowScope::frame ? ", built for what the frame looks up" : ", built whole";
+    const ShadowCode code = chosen_code(s).code;
+    if (code != ShadowCode::mh) out += fmt::format(" as {}", name_of(code));
+    if (!s.cache.empty()) out += fmt::format(" and kept in {}", s.cache);
+    if (s.filter != ShadowFilter::pcf) out += ", filtered hierarchically";
+    return out + fmt::format(", about {}", size_text(tree_shadow_bytes(light, {}, scene.render).kept));
+}
+
+std::string open_casters_note(const SceneLight& light, const Scene& scene) {
+    const ShadowSettings& s = light.shadow;
+    if (s.method != ShadowMethod::compressed || s.resolution == auto_resolution ||
+        s.receivers != Receivers::any || !open_casters(scene.mesh)) {
+        return "";
+    }
+    return fmt::format("light '{}': open surfaces under receivers = \"any\": the tree may need {} x {} nodes",
+                       light.light.id, s.resolution, s.resolution);
 }
 
 std::string tree_shadow_text(const LightShadowStats& s) {

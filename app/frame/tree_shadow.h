@@ -13,6 +13,17 @@ bool make_tree_shadow(const ShadowWork& work, const TreeNeeds* needs, std::int64
 void give_tree_shadow(const ShadowWork& work, const LightShadow& shadow, const TileScene& tiles,
                       TileLight& light);
 std::string tree_shadow_text(const LightShadowStats& stats);
+ShadowBytes tree_shadow_bytes(const SceneLight& light, const MeshSize& mesh, const RenderSettings& render);
+std::string tree_plan_text(const SceneLight& light, const std::optional<FoundResolution>& found,
+                           const Scene& scene);
+
+/// Squares (8 x 8 texels, or coarser ones) that a picture's lookups read of one light, expected: 1.2, 3 and
+/// 8 per pixel at 1, 4 and 16 samples, which share more of them the closer they lie. No more than the map
+/// has, nor than a collection may hold.
+std::int64_t expected_squares(const ShadowSettings& shadow, std::int64_t maps, const RenderSettings& render);
+
+/// The note that is owed where casters are open and receivers any: empty, or that trees may be large.
+std::string open_casters_note(const SceneLight& light, const Scene& scene);
 
 /// What the pictures look up of the trees that are to be built for them alone: one entry for each such shadow
 /// that is not kept, in their order.
