@@ -37,8 +37,7 @@ std::vector<std::string> chosen_apertures(const BenchOptions& options) {
     for (const std::string& name : aperture_names(options.data)) {
         if (name.find(options.scene) != std::string::npos) chosen.push_back(name);
     }
-    if (chosen.empty())
-        throw UsageError(fmt::format("no bench aperture has \"{}\" in its name", options.scene));
+    check_chosen(!chosen.empty(), options, "aperture");
     return chosen;
 }
 

@@ -20,6 +20,10 @@ std::string report_head(const char* title, const char* small, const BenchOptions
     return text;
 }
 
+void check_chosen(bool any, const BenchOptions& options, const char* kind) {
+    if (!any) throw UsageError(fmt::format("no bench {} has \"{}\" in its name", kind, options.scene));
+}
+
 void make_output_folder(const BenchOptions& options) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);

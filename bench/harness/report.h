@@ -37,6 +37,9 @@ std::string threads_text(int threads);
 /// Title of a page, and whether it tells of a quick run: of what is `small` then.
 std::string report_head(const char* title, const char* small, const BenchOptions& options);
 
+/// Throws UsageError where options.scene chose none of the subjects, of `kind`.
+void check_chosen(bool any, const BenchOptions& options, const char* kind = "scene");
+
 /// Makes the folder that options name, where there is none. Throws OutputError.
 void make_output_folder(const BenchOptions& options);
 

@@ -64,7 +64,7 @@ int bench_raster(const BenchOptions& options) {
             rows.push_back(std::move(row));
         say_headline(rows, recipe.name, options);
     }
-    if (rows.empty()) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
+    check_chosen(!rows.empty(), options);
     if (!options.data) options.say("no folder of test data: scenes from scanned meshes are left out");
     const bool ours_failed = say_problems(rows, options);
     write_report(rows, options);

@@ -157,7 +157,7 @@ int bench_codes(const BenchOptions& options) {
                                    cost_markdown(rows) + merge_markdown(rows) + dag_markdown(rows)}});
         if (draws) run_gnuplot(panel_script(cost_chart(rows)), options.out / "shadows_codes.svg");
     }
-    if (rows.empty()) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
+    check_chosen(!rows.empty(), options);
     options.say(fmt::format("written to {}", options.out.string()));
     return static_cast<int>(ExitCode::ok);
 }

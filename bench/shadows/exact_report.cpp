@@ -193,8 +193,7 @@ void write_exact_report(const std::vector<ExactRow>& rows, const std::vector<Err
 int bench_exact(const BenchOptions& options) {
     std::vector<ExactRow> rows;
     const std::vector<ExactSubject> subjects = exact_subjects(options);
-    if (subjects.empty())
-        throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
+    check_chosen(!subjects.empty(), options);
     // Their workers must be forked before this process starts threads.
     for (const ExactSubject& subject : subjects) {
         for (ExactRow& row : measure_exact(subject, options))

@@ -33,7 +33,7 @@ std::vector<ShadowRecipe> recipes_of(const BenchOptions& options, std::vector<Sh
     for (ShadowRecipe& recipe : all) {
         if (recipe.name.find(options.scene) != std::string::npos) chosen.push_back(std::move(recipe));
     }
-    if (chosen.empty()) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
+    check_chosen(!chosen.empty(), options);
     return chosen;
 }
 

@@ -278,7 +278,7 @@ int bench_soft(const BenchOptions& options) {
         if (options.scene.empty() ? usual : recipe.name.find(options.scene) != std::string::npos)
             wanted.push_back(std::move(recipe));
     }
-    if (wanted.empty()) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
+    check_chosen(!wanted.empty(), options);
     for (const ShadowRecipe& recipe : wanted)
         measure(recipe, options, rows);
 #ifdef OBSCURA_HAS_EMBREE

@@ -249,7 +249,7 @@ int bench_soft_error(const BenchOptions& options) {
         for (SoftErrorRow& row : measure_soft_errors(recipe, plan, options))
             rows.push_back(std::move(row));
     }
-    if (!found) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
+    check_chosen(found, options);
     const std::string page =
         report_head("Error of soft shadows against time", "small pictures of a small scene", options) +
         machine_markdown({}) + soft_error_markdown(rows, plan);

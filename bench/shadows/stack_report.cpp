@@ -108,7 +108,7 @@ int bench_stack(const BenchOptions& options) {
             rows.push_back(std::move(row));
         }
     }
-    if (rows.empty()) throw UsageError(fmt::format("no bench scene has \"{}\" in its name", options.scene));
+    check_chosen(!rows.empty(), options);
     write_files(options, {{"shadows_stack.csv", stack_csv(rows)},
                           {"shadows_stack.md",
                            report_head("Stacks of shadow maps", "a small stack of a small scene", options) +

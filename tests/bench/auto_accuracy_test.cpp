@@ -13,6 +13,7 @@
 #include "bench/shadows/scenes.h"
 #ifdef OBSCURA_HAS_EMBREE
 #include "bench/shadows/wrong_sweep.h"
+#include "tests/core/shared_folder.h"
 
 namespace obscura {
 namespace {
@@ -36,18 +37,13 @@ SweepResult wrong_at(SweepStage& stage, double max_magnification) {
     return sweep_shadow(stage, settings);
 }
 
-std::filesystem::path data_folder() {
-    const char* elsewhere = std::getenv("OBSCURA_DATA");
-    return elsewhere != nullptr ? elsewhere : OBSCURA_SOURCE_DIR "/../shared/data";
-}
-
 class AutoAccuracy : public testing::TestWithParam<Case> {};
 
 TEST_P(AutoAccuracy, WrongPixelsAgainstExactRays) {
-    std::vector<ShadowRecipe> recipes = shadow_recipes(data_folder(), false);
+    std::vector<ShadowRecipe> recipes = shadow_recipes(shared_folder("data"), false);
     const auto recipe = std::find_if(recipes.begin(), recipes.end(),
                                      [](const ShadowRecipe& r) { return r.name == GetParam().scene; });
-    if (recipe == recipes.end()) GTEST_SKIP() << "no " << GetParam().scene << " in " << data_folder();
+    if (recipe == recipes.end()) GTEST_SKIP() << "no " << GetParam().scene << " in " << shared_folder("data");
     SweepStage stage(*recipe, {640, 360});
     for (const double most : {1.0, 0.5, frame_magnification}) {
         const SweepResult found = wrong_at(stage, most);

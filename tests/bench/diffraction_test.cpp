@@ -15,6 +15,7 @@
 #include "bench/harness/gnuplot.h"
 #include "bench/harness/interleave.h"
 #include "core/error.h"
+#include "tests/core/shared_folder.h"
 #include "tests/core/temporary_folder.h"
 
 namespace obscura {
@@ -172,8 +173,8 @@ TEST(DiffractionBench, CoarserMasksGiveWorsePictures) {
 }
 
 TEST(DiffractionCases, TelescopesComeFromTheirMasks) {
-    const std::filesystem::path data = OBSCURA_SOURCE_DIR "/../shared/data";
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << "no shared data beside the repository";
+    const std::filesystem::path data = shared_folder("data");
+    SKIP_WITHOUT(data);
     EXPECT_EQ(aperture_names(data).size(), 6u);
     EXPECT_EQ(aperture_names({}).size(), 4u);
     const auto small = diffraction_case("jwst", 256, data), large = diffraction_case("jwst", 2048, data);

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "app/cli/info_command.h"
+#include "tests/core/shared_folder.h"
 
 namespace obscura {
 namespace {
@@ -172,12 +173,6 @@ constexpr Row rows[] = {
     {"meshes/bicycle.obj", 3976, 2216, true, 354, 0, false, {-19, -12.3f, -59.8f}, {27, 72, 89.3f}, 0.06f},
 };
 
-/// Beside the sources, or where OBSCURA_DATA says.
-std::filesystem::path data_folder() {
-    const char* elsewhere = std::getenv("OBSCURA_DATA");
-    return elsewhere != nullptr ? elsewhere : OBSCURA_SOURCE_DIR "/../shared/data";
-}
-
 class DataInfo : public testing::TestWithParam<Row> {};
 
 void expect_near(Vec3d actual, Vec3f expected, float tolerance) {
@@ -188,8 +183,8 @@ void expect_near(Vec3d actual, Vec3f expected, float tolerance) {
 
 TEST_P(DataInfo, AgreesWithTheReadme) {
     const Row row = GetParam();
-    const std::filesystem::path file = data_folder() / row.file;
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real data at " << file;
+    const std::filesystem::path file = shared_folder("data") / row.file;
+    SKIP_WITHOUT(file);
     const ObjModel model = load_obj(file, FileAccess{file.parent_path(), {}}, Limits{});
     const MeshInfo info = inspect(model);
     EXPECT_EQ(info.triangles, row.triangles);

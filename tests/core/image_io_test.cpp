@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "tests/core/png_builder.h"
+#include "tests/core/shared_folder.h"
 
 namespace obscura {
 namespace {
@@ -330,8 +331,8 @@ TEST(PfmBad, EveryBrokenHeaderIsRefused) {
 }
 
 TEST(Png, RealPicturesDecode) {
-    const std::filesystem::path folder = std::filesystem::path(OBSCURA_SOURCE_DIR) / "../shared/data";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/data here";
+    const std::filesystem::path folder = shared_folder("data");
+    SKIP_WITHOUT(folder);
     int seen = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".png") continue;

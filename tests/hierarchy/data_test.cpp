@@ -21,6 +21,7 @@
 #include "hierarchy/codes/query.h"
 #include "hierarchy/combine.h"
 #include "raster/view.h"
+#include "tests/core/shared_folder.h"
 #include "tests/hierarchy/region_oracle.h"
 #include "tests/hierarchy/tree_compare.h"
 #include "tests/raster/raster_solids.h"
@@ -28,7 +29,7 @@
 namespace obscura {
 namespace {
 
-const std::filesystem::path data_folder = OBSCURA_SOURCE_DIR "/../shared/data";
+const std::filesystem::path data_folder = shared_folder("data");
 constexpr int region_side = RegionOracle::side;
 
 struct Lit {

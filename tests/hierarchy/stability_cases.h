@@ -11,6 +11,7 @@
 #include "core/topology.h"
 #include "raster/view.h"
 #include "scenes/shapes.h"
+#include "tests/core/shared_folder.h"
 #include "tests/raster/raster_solids.h"
 
 namespace obscura::stability {
@@ -101,7 +102,7 @@ inline Mesh plain_with_cubes(double size_m) {
 
 /// Thousands of leaves without thickness; nothing without the shared data.
 inline std::optional<Mesh> ficus() {
-    const std::filesystem::path data = OBSCURA_SOURCE_DIR "/../shared/data";
+    const std::filesystem::path data = shared_folder("data");
     if (!std::filesystem::exists(data / "meshes/ficus_tree.obj")) return {};
     const FileAccess access{data, {}};
     return load_obj(resolve_input(access, "meshes/ficus_tree.obj"), access, Limits{}).mesh;

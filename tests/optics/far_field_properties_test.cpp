@@ -11,6 +11,7 @@
 #include "core/image_io.h"
 #include "optics/far_field_methods.h"
 #include "optics/thesis/far_field.h"
+#include "tests/core/shared_folder.h"
 #include "tests/optics/far_field_reference.h"
 
 namespace obscura {
@@ -185,9 +186,8 @@ TEST(FarFieldProperties, WindowsMagnifiedAThousandTimes) {
 
 /// Segmented mirrors, spiders, thin gaps: what telescopes look through.
 TEST(FarFieldProperties, RealPupils) {
-    const std::filesystem::path folder =
-        std::filesystem::path(OBSCURA_SOURCE_DIR) / "../shared/data/apertures";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/data/apertures here";
+    const std::filesystem::path folder = shared_folder("data/apertures");
+    SKIP_WITHOUT(folder);
     for (const char* name : {"jwst", "keck", "vlt_ut1", "gmt"}) {
         std::ifstream file(folder / (std::string(name) + "_1024.png"), std::ios::binary);
         ASSERT_TRUE(file) << name;

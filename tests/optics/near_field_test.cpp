@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "core/image_io.h"
+#include "tests/core/shared_folder.h"
 #include "tests/optics/near_field_oracle.h"
 
 namespace obscura {
@@ -67,9 +68,8 @@ TEST(NearField, AnyPlane) {
 
 /// Segmented mirrors, spiders, thin gaps, at the size of pictures: every 61st pixel of every 61st row.
 TEST(NearField, RealPupils) {
-    const std::filesystem::path folder =
-        std::filesystem::path(OBSCURA_SOURCE_DIR) / "../shared/data/apertures";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no ../shared/data/apertures here";
+    const std::filesystem::path folder = shared_folder("data/apertures");
+    SKIP_WITHOUT(folder);
     for (const char* name : {"jwst", "keck", "hst"}) {
         std::ifstream file(folder / (std::string(name) + "_1024.png"), std::ios::binary);
         ASSERT_TRUE(file) << name;

@@ -11,6 +11,7 @@
 
 #include "core/image_io.h"
 #include "optics/far_field.h"
+#include "tests/core/shared_folder.h"
 #include "tests/optics/far_field_oracle.h"
 
 namespace obscura {
@@ -197,10 +198,10 @@ Aperture pupil(const std::string& path) {
 /// Every pupil at its full 1024 texels on a grid twice as large; rows are sampled, since the definition costs
 /// a thousand times more.
 TEST(Physics, RealPupilsAgreeWithTheDefinition) {
-    const std::string folder = OBSCURA_SOURCE_DIR "/../shared/data/apertures/";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder << ": real pupils are not tested";
+    const std::filesystem::path folder = shared_folder("data/apertures");
+    SKIP_WITHOUT(folder);
     for (const char* name : {"gmt", "hst", "jwst", "keck", "subaru", "vlt_ut1"}) {
-        const Aperture a = pupil(folder + name + "_1024.png");
+        const Aperture a = pupil((folder / (std::string(name) + "_1024.png")).string());
         const double area = open_area(a.mask.view());
         ASSERT_GT(area, 1e5) << name;
         const FrequencyGrid grid = centred_grid(2048, 2048, 1.0 / 1024);

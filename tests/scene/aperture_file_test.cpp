@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/pixel.h"
 #include "tests/core/png_builder.h"
+#include "tests/core/shared_folder.h"
 #include "tests/core/temporary_folder.h"
 
 namespace obscura {
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path apertures = OBSCURA_SOURCE_DIR "/../shared/data/apertures";
+const fs::path apertures = shared_folder("data/apertures");
 
 Image<float> decode(const std::string& bytes) {
     return decode_mask(bytes, "mask", {});
@@ -139,7 +140,7 @@ TEST(ApertureFile, FilesHaveDotsOrSlashes) {
 }
 
 TEST(ApertureFile, RealPupils) {
-    if (!fs::exists(apertures)) GTEST_SKIP() << "no shared data at " << apertures;
+    SKIP_WITHOUT(apertures);
     // Shares of the square that the published pupils leave open; of the ones made of circles by hand: Hubble
     // (1 - 0.33^2) less vanes and pads, of a disc 1 / 1.02 wide.
     const struct {

@@ -1,6 +1,7 @@
 // Our OBJ reader against tinyobjloader: what we accept, the library must read alike (tests/fuzz/obj_peer.h).
 // The places where the two are known to differ are rows of a table (tests/fuzz/obj_dialect.h); the tests
 // print how often each was met and prove that each is still true of the library.
+#include "tests/core/shared_folder.h"
 #include "tests/fuzz/obj_peer.h"
 
 #include <fmt/format.h>
@@ -126,16 +127,9 @@ INSTANTIATE_TEST_SUITE_P(ObjPeer, FilesByChance, testing::Range(0, 4));
 
 constexpr std::uintmax_t large_file = 4'000'000;
 
-fs::path shared_folder(const char* name) {
-    const char* elsewhere = std::getenv("OBSCURA_DATA");
-    const fs::path data =
-        elsewhere != nullptr ? fs::path(elsewhere) : fs::path(OBSCURA_SOURCE_DIR "/../shared/data");
-    return name == std::string_view("data") ? data : data.parent_path() / name;
-}
-
 void compare_shared(const char* name, bool large) {
     const fs::path folder = shared_folder(name);
-    if (!fs::exists(folder)) GTEST_SKIP() << "no files at " << folder;
+    SKIP_WITHOUT(folder);
     Tally tally;
     for (const fs::path& file : obj_files(folder)) {
         if ((fs::file_size(file) > large_file) == large) add_file(tally, file);

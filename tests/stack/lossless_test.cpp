@@ -11,6 +11,7 @@
 #include "hierarchy/stack/encode.h"
 #include "raster/interval_map.h"
 #include "raster/view.h"
+#include "tests/core/shared_folder.h"
 #include "tests/hierarchy/tree_compare.h"
 #include "tests/stack/stack_scenes.h"
 #ifdef OBSCURA_STACK_DATA
@@ -61,8 +62,8 @@ class StackData : public ::testing::TestWithParam<const char*> {};
 
 /// A lamp of a twentieth of the scene, focused on its ground.
 TEST_P(StackData, EveryTexelOfEveryMap) {
-    const std::filesystem::path data = OBSCURA_SOURCE_DIR "/../shared/data";
-    if (!std::filesystem::exists(data)) GTEST_SKIP() << "SKIPPED: no ../shared/data here";
+    const std::filesystem::path data = shared_folder("data");
+    SKIP_WITHOUT(data);
     for (const ShadowRecipe& recipe : shadow_recipes(data, false)) {
         if (recipe.name != GetParam()) continue;
         const Mesh mesh = stage_shadows(recipe, {}).mesh;

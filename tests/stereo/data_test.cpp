@@ -18,11 +18,12 @@
 #include "stereo/disparity.h"
 #include "stereo/thesis/warp.h"
 #include "stereo/upsample.h"
+#include "tests/core/shared_folder.h"
 
 namespace obscura {
 namespace {
 
-const std::filesystem::path folder = OBSCURA_SOURCE_DIR "/../shared/data/stereo";
+const std::filesystem::path folder = shared_folder("data/stereo");
 
 std::string bytes_of(const char* name) {
     std::ifstream in(folder / name, std::ios::binary);
@@ -65,8 +66,7 @@ MiddleView photograph(const DisparityMap& map) {
 class StereoData : public testing::Test {
   protected:
     void SetUp() override {
-        if (!std::filesystem::exists(folder / "cones_disp2.pgm"))
-            GTEST_SKIP() << "SKIPPED: no ../shared/data/stereo here";
+        SKIP_WITHOUT(folder / "cones_disp2.pgm");
     }
 };
 

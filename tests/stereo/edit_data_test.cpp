@@ -12,11 +12,12 @@
 #include "core/pnm.h"
 #include "stereo/edit.h"
 #include "stereo/solver/solver.h"
+#include "tests/core/shared_folder.h"
 
 namespace obscura {
 namespace {
 
-const std::filesystem::path file = OBSCURA_SOURCE_DIR "/../shared/data/stereo/cones_disp2.pgm";
+const std::filesystem::path file = shared_folder("data/stereo/cones_disp2.pgm");
 constexpr std::uint32_t mask_object = 4;
 
 /// The screen at 40 pixels. Objects: four bands of disparity, and the wooden mask by a mask painted by hand,
@@ -44,7 +45,7 @@ MiddleView cones() {
 }
 
 TEST(StereoEditData, AMeasuredFaceIsMadeRounderAndBroughtNearer) {
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is absent";
+    SKIP_WITHOUT(file);
     const MiddleView view = cones();
     const EditTarget face{{mask_object}, {}};
     const std::vector<StereoEdit> edits = {{"round", 1, RoundnessEdit{face, 3}},
