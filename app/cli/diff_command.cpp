@@ -10,7 +10,7 @@
 #include "app/cli/messages.h"
 #include "app/cli/targets.h"
 #include "app/report/output_plan.h"
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "filters/metrics.h"

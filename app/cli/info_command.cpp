@@ -8,6 +8,7 @@
 
 #include "app/cli/flag_values.h"
 #include "app/cli/flags.h"
+#include "app/models/model_file.h"
 #include "app/scene/texture_notes.h"
 #include "core/edges.h"
 #include "core/error.h"
@@ -30,7 +31,7 @@ std::size_t faces_with_area(const Mesh& mesh) {
     return static_cast<std::size_t>(std::count(has_area.begin(), has_area.end(), true));
 }
 
-void bounds(const ObjModel& model, MeshInfo& info) {
+void bounds(const Model& model, MeshInfo& info) {
     const std::vector<Vec3f>& positions = model.mesh.positions;
     if (positions.empty()) return;
     info.min = info.max = to_double(positions.front()) + model.origin;
@@ -59,7 +60,7 @@ std::string corner_text(Vec3d corner, Vec3d extent) {
                        digits_of(corner.y), corner.z, digits_of(corner.z));
 }
 
-void write_table(const InfoOptions& options, const ObjModel& model, const MeshInfo& info, std::ostream& out) {
+void write_table(const InfoOptions& options, const Model& model, const MeshInfo& info, std::ostream& out) {
     fmt::print(out, "{}\n", options.file.string());
     row(out, "triangles", "{}", info.triangles);
     row(out, "vertices", "{}", info.vertices);
@@ -93,7 +94,7 @@ void write_table(const InfoOptions& options, const ObjModel& model, const MeshIn
 
 }  // namespace
 
-MeshInfo inspect(const ObjModel& model) {
+MeshInfo inspect(const Model& model) {
     const Mesh& mesh = model.mesh;
     MeshInfo info;
     info.triangles = mesh.triangles.size();
@@ -119,10 +120,10 @@ int info_command(const InfoOptions& options, std::ostream& out) {
     std::filesystem::path file = std::filesystem::canonical(options.file, error);
     if (error) file = options.file;
     const FileAccess access{file.parent_path(), options.allowed_paths};
-    ObjOptions obj;
+    ModelOptions obj;
     obj.allow_missing = options.allow_missing;
     obj.textures = false;  // none is read
-    const ObjModel model = load_obj(file, access, options.limits, obj);
+    const Model model = load_model(file, access, options.limits, obj);
     write_table(options, model, inspect(model), out);
     return static_cast<int>(ExitCode::ok);
 }
@@ -132,9 +133,10 @@ int info_command(const InfoOptions& options) {
 }
 
 int run_info(const Arguments& arguments) {
-    Flags flags("info [options] FILE",
-                "Prints what a mesh file (Wavefront OBJ) holds: triangles, components closed or open, open "
-                "edges, bounding box in the file's own units, degenerate triangles.");
+    Flags flags(
+        "info [options] FILE",
+        "Prints what a mesh file (Wavefront OBJ, PLY, STL) holds: triangles, components closed or open, open "
+        "edges, bounding box in the file's own units, degenerate triangles.");
     std::string file;
     std::vector<std::string> allowed;
     InfoOptions options;

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "app/cli/command.h"
-#include "app/scene/obj_file.h"
+#include "app/models/model.h"
+#include "core/limits.h"
 
 namespace obscura {
 
@@ -22,7 +23,7 @@ struct MeshInfo {
     Vec3d min, max;  ///< of the positions in use, in the file's own frame
 };
 
-MeshInfo inspect(const ObjModel& model);
+MeshInfo inspect(const Model& model);
 
 struct InfoOptions {
     std::filesystem::path file;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/read_files.h"
+#include "app/models/read_files.h"
 #include "core/file_output.h"
 
 namespace obscura {

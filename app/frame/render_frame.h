@@ -10,7 +10,7 @@
 #include "app/frame/surface_light.h"
 #include "app/frame/tile.h"
 #include "app/glare/glare.h"
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "app/scene/scene.h"
 #include "core/isa.h"
 #include "hierarchy/codes/tree_file.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "app/scene/scene.h"
 #include "hierarchy/codes/tree_file.h"
 #include "hierarchy/shadow_tree.h"

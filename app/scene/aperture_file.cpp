@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "core/error.h"
 #include "core/png_container.h"
 #include "core/pnm.h"

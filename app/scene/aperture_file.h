@@ -28,7 +28,7 @@ bool names_mask_file(std::string_view text);
 /// when the picture exceeds `limits`.
 Image<float> decode_mask(std::string_view bytes, const std::string& name, const ImageFileLimits& limits);
 
-/// The same of a file, which is found already (see app/scene/file_access.h).
+/// The same of a file, which is found already (see app/models/file_access.h).
 Image<float> read_mask(const std::filesystem::path& file, const std::string& name,
                        const ImageFileLimits& limits);
 

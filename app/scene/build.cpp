@@ -13,7 +13,7 @@
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
 #include "app/scene/mesh_transform.h"
-#include "app/scene/obj_file.h"
+#include "app/models/model_file.h"
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
 #include "app/scene/texture_notes.h"
@@ -114,18 +114,18 @@ struct Part {
     Mesh mesh;
     std::vector<Material> materials;
     Vec3d origin;                  ///< what `mesh` stands about
-    std::vector<bool> without_uv;  ///< as ObjModel has it
+    std::vector<bool> without_uv;  ///< as Model has it
 };
 
 Part load_part(Builder& b, const SceneTable& table) {
     return load_named(b, table, "file", [&](const std::filesystem::path& path) {
-        ObjOptions options;
+        ModelOptions options;
         options.crease_angle_deg = mesh_options_of(table).crease_angle_deg;
         options.allow_missing = b.access.allow_missing;
         options.materials = !table.has("material");
         for (const SceneEntry& entry : subtable(table, "materials").entries)
             options.replaced.push_back(entry.key);
-        ObjModel model = load_obj(path, b.access, b.limits, options);
+        Model model = load_model(path, b.access, b.limits, options);
         for (const auto* words : {&model.missing, &model.notes}) {
             for (const std::string& word : *words)
                 add_note(b, word);

@@ -1,7 +1,7 @@
 #pragma once
 // From a validated document to what is rendered.
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_file.h"
 

@@ -11,6 +11,7 @@
 #include "app/scene/optics_settings.h"
 #include "app/scene/shadow_settings.h"
 #include "core/emitter_surface.h"
+#include "core/limits.h"
 #include "core/mesh.h"
 #include "core/scene.h"
 #include "filters/tonemap.h"
@@ -33,17 +34,6 @@ struct Output {
     Aov aov = Aov::beauty;
     std::string file;  ///< "####" stands for the frame number
     friend bool operator==(const Output&, const Output&) = default;
-};
-
-/// Bounds that are checked before anything is allocated.
-struct Limits {
-    std::int64_t memory_mib = 4096;
-    std::int64_t triangles = 50'000'000;
-    std::int64_t texture_px = 16384;  ///< longest side
-    std::int64_t texture_mib = 1024;  ///< all decoded textures together
-    std::int64_t frames = 65536;
-    std::int64_t image_px = 16384;  ///< longest side of a frame
-    friend bool operator==(const Limits&, const Limits&) = default;
 };
 
 /// A light, and how its shadows are made.

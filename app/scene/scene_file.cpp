@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "app/scene/keys.h"
 #include "app/scene/override.h"
 #include "app/scene/precheck.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_file.h"
 #include "stereo/edit.h"

@@ -1,6 +1,6 @@
 #include "bench/diffraction/cases.h"
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "core/image_io.h"
 #include "optics/aperture_shapes.h"
 

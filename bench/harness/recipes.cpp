@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 #include "raster/view.h"
 #include "scenes/build.h"
 #include "scenes/city.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 #include "bench/harness/recipes.h"
 #include "core/topology.h"
 #include "raster/view.h"

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 #include "bench/harness/recipes.h"
 #include "core/pnm.h"
 #include "core/topology.h"

@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "app/cli/info_command.h"
+#include "app/models/obj_file.h"
 #include "tests/core/shared_folder.h"
 
 namespace obscura {
@@ -185,7 +186,7 @@ TEST_P(DataInfo, AgreesWithTheReadme) {
     const Row row = GetParam();
     const std::filesystem::path file = shared_folder("data") / row.file;
     SKIP_WITHOUT(file);
-    const ObjModel model = load_obj(file, FileAccess{file.parent_path(), {}}, Limits{});
+    const Model model = load_obj(file, FileAccess{file.parent_path(), {}}, Limits{});
     const MeshInfo info = inspect(model);
     EXPECT_EQ(info.triangles, row.triangles);
     EXPECT_EQ(info.vertices, row.vertices);

@@ -16,7 +16,7 @@
 
 #include "app/frame/render_frame.h"
 #include "app/scene/build.h"
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "core/file_output.h"
 #include "core/hash.h"
 #include "core/image_io.h"

@@ -10,7 +10,7 @@
 
 #include "app/frame/render_frame.h"
 #include "app/scene/build.h"
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "core/isa.h"
 #include "tests/frame/one_picture.h"
 

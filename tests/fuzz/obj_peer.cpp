@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "app/scene/obj_file.h"
-#include "app/scene/obj_text.h"
+#include "app/models/obj_file.h"
+#include "app/models/obj_text.h"
 #include "core/polygon.h"
 
 namespace obscura {
@@ -65,7 +65,7 @@ struct PeerModel {
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> materials;
     std::vector<PeerFace> faces;
-    std::vector<ObjCorner> corners;
+    std::vector<FaceCorner> corners;
 };
 
 PeerModel read_by_library(const std::string& obj, const std::string& mtl, Feed feed) {
@@ -115,14 +115,14 @@ void compare_faces(const ObjText& text, const PeerModel& peer) {
     expect(text.corners.size() == peer.corners.size(), "{} corners, the library has {}", text.corners.size(),
            peer.corners.size());
     for (std::size_t c = 0; c < text.corners.size(); ++c) {
-        const ObjCorner &ours = text.corners[c], &theirs = peer.corners[c];
+        const FaceCorner &ours = text.corners[c], &theirs = peer.corners[c];
         expect(ours == theirs, "corner {}: {}/{}/{} from 0, the library has {}/{}/{}", c, ours.position,
                ours.uv, ours.normal, theirs.position, theirs.uv, theirs.normal);
     }
 }
 
 /// One vertex of the model against the elements that the library's corner names.
-void compare_vertex(const ObjModel& model, std::uint32_t v, const ObjText& text, const ObjCorner& corner,
+void compare_vertex(const Model& model, std::uint32_t v, const ObjText& text, const FaceCorner& corner,
                     std::size_t triangle) {
     const Mesh& mesh = model.mesh;
     const Vec3d position = text.positions[static_cast<std::size_t>(corner.position)];
@@ -159,7 +159,7 @@ Material expected_material(const tinyobj::material_t& m) {
     return expected;
 }
 
-void compare_material(const ObjModel& model, const Material& ours, const tinyobj::material_t& theirs) {
+void compare_material(const Model& model, const Material& ours, const tinyobj::material_t& theirs) {
     const Material expected = expected_material(theirs);
     expect(within_ulp(ours.base_color, expected.base_color), "material '{}': base colour", ours.name);
     expect(within_ulp(ours.emission, expected.emission), "material '{}': emission", ours.name);
@@ -176,7 +176,7 @@ void compare_material(const ObjModel& model, const Material& ours, const tinyobj
 /// The names and looks of triangles.
 class Labels {
   public:
-    Labels(const ObjModel& model, const PeerModel& peer, Feed feed, bool objects)
+    Labels(const Model& model, const PeerModel& peer, Feed feed, bool objects)
         : model_(model), peer_(peer), feed_(feed), objects_(objects), paired_(model.materials.size(), none) {}
 
     void compare(std::size_t triangle, const PeerFace& face) {
@@ -211,18 +211,18 @@ class Labels {
         compare_material(model_, material, peer);
     }
 
-    const ObjModel& model_;
+    const Model& model_;
     const PeerModel& peer_;
     Feed feed_;
     bool objects_;
     std::vector<int> paired_;  ///< by our material, the library's; -1 = before any usemtl
 };
 
-void compare_triangles(const ObjText& text, const ObjModel& model, const PeerModel& peer, Labels labels) {
+void compare_triangles(const ObjText& text, const Model& model, const PeerModel& peer, Labels labels) {
     std::size_t t = 0, first = 0;
     std::vector<Vec3f> outline;
     for (std::size_t f = 0; f < peer.faces.size(); first += text.faces[f].corner_count, ++f) {
-        const ObjCorner* corner = &peer.corners[first];
+        const FaceCorner* corner = &peer.corners[first];
         outline.clear();
         for (std::uint32_t k = 0; k < text.faces[f].corner_count; ++k)
             outline.push_back(
@@ -243,7 +243,7 @@ void compare_triangles(const ObjText& text, const ObjModel& model, const PeerMod
 
 PeerResult read_by_both(std::string_view obj, std::string_view mtl, const Limits& limits, Feed feed) {
     const ObjText text = parse_obj_text(obj, "text.obj", limits);
-    const ObjModel model = obj_from_text(obj, mtl, limits);
+    const Model model = obj_from_text(obj, mtl, limits);
     PeerResult result;
     result.triangles = model.mesh.triangles.size();
     std::string peer_obj = plain_obj(obj, result.quirks), peer_mtl;

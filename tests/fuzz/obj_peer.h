@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/scene/scene.h"
+#include "core/limits.h"
 #include "core/scene.h"
 #include "tests/fuzz/obj_dialect.h"
 

@@ -12,7 +12,7 @@
 #include <optional>
 #include <random>
 
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 #include "bench/harness/recipes.h"
 #include "bench/shadows/scenes.h"
 #include "core/topology.h"

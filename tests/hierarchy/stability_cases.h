@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 #include "bench/harness/recipes.h"
 #include "core/topology.h"
 #include "raster/view.h"

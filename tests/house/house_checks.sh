@@ -32,7 +32,7 @@ check_doors() {
     door xsimd 'xsimd/' 'core/simd(_[a-z]+)?\.h'
     door stb 'stb/|stb_' 'core/image_io\.cpp'
     door toml++ 'toml\+\+/|toml\.hpp' 'app/scene/toml_parse\.cpp'
-    door tinyobjloader 'tiny_obj' 'app/scene/mtl_text\.cpp|tests/fuzz/obj_peer\.cpp'
+    door tinyobjloader 'tiny_obj' 'app/models/mtl_text\.cpp|tests/fuzz/obj_peer\.cpp'
     door CLI11 'CLI/|CLI11' 'app/cli/flags\.cpp'
     door GoogleTest 'g(test|mock)/' 'tests/.*'
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
@@ -169,7 +169,7 @@ self_test() {
     plant doors core/mesh.cpp '#include <tiny_obj_loader.h>\n' found
     plant doors tests/fuzz/obj_dialect.cpp '#include <tiny_obj_loader.h>\n' found
     plant doors tests/fuzz/obj_peer.cpp '#include <tiny_obj_loader.h>\n' clean
-    plant doors app/scene/mtl_text.cpp '#include <tiny_obj_loader.h>\n' clean
+    plant doors app/models/mtl_text.cpp '#include <tiny_obj_loader.h>\n' clean
     plant doors app/cli/flags.h '#include <CLI/CLI.hpp>\n' found
     plant doors app/cli/render_command.cpp '#include <CLI/CLI.hpp>\n' found
     plant doors app/cli/flags.cpp '#include <CLI/CLI.hpp>\n' clean

@@ -26,7 +26,8 @@ optics           filters optics/thesis
 stereo           raster
 stereo/solver    stereo
 stereo/thesis    stereo/solver
-app/scene        core/sky optics stereo stereo/thesis scenes
+app/models       core
+app/scene        app/models core/sky optics stereo stereo/thesis scenes
 app/glare        app/scene
 app/frame        app/glare raster/exact hierarchy/stack
 app/pair         app/frame

@@ -11,7 +11,7 @@
 
 #include "app/pair/pair.h"
 #include "app/scene/build.h"
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "app/scene/stereo_settings.h"
 #include "core/hash.h"
 

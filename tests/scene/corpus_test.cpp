@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "tests/fuzz/scene_fuzz.h"
 
 namespace obscura {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "app/scene/scene_file.h"
 #include "app/scene/schema.h"
 #include "app/scene/toml_text.h"

@@ -1,4 +1,4 @@
-#include "app/scene/text_lines.h"
+#include "app/models/text_lines.h"
 
 #include <fmt/format.h>
 

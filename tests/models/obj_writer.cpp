@@ -1,4 +1,4 @@
-#include "tests/scene/obj_writer.h"
+#include "tests/models/obj_writer.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,11 @@
-#include "app/scene/obj_mesh.h"
+#include "app/models/faces_mesh.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include "core/polygon.h"
 
@@ -16,7 +19,7 @@ class VertexTable {
   public:
     explicit VertexTable(std::size_t positions) : head_(positions, none) {}
 
-    std::uint32_t find_or_add(const ObjCorner& corner) {
+    std::uint32_t find_or_add(const FaceCorner& corner) {
         std::uint32_t* link = &head_[static_cast<std::size_t>(corner.position)];
         while (*link != none) {
             if (corners[*link] == corner) return *link;
@@ -29,7 +32,7 @@ class VertexTable {
         return vertex;
     }
 
-    std::vector<ObjCorner> corners;
+    std::vector<FaceCorner> corners;
 
   private:
     std::vector<std::uint32_t> head_, next_;
@@ -38,7 +41,7 @@ class VertexTable {
 /// Objects that own faces, in the order of the file.
 class ObjectTable {
   public:
-    ObjectTable(const ObjText& text, const std::string& fallback)
+    ObjectTable(const IndexedFaces& text, const std::string& fallback)
         : text_(text), fallback_(fallback), number_(text.object_names.size() + 1, none) {}
 
     std::uint32_t number(std::int32_t object) {
@@ -54,7 +57,7 @@ class ObjectTable {
     std::vector<Object> objects;
 
   private:
-    const ObjText& text_;
+    const IndexedFaces& text_;
     const std::string& fallback_;
     std::vector<std::uint32_t> number_;
 };
@@ -77,7 +80,7 @@ double origin_along(double lo, double hi, double extent) {
 }
 
 /// Whether two corners of a triangle are one as floats, but not in the file.
-bool merges(const ObjText& text, Vec3d origin, const std::array<std::int32_t, 3>& corner) {
+bool merges(const IndexedFaces& text, Vec3d origin, const std::array<std::int32_t, 3>& corner) {
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3d a = text.positions[static_cast<std::size_t>(corner[k])];
         const Vec3d b = text.positions[static_cast<std::size_t>(corner[(k + 1) % 3])];
@@ -86,12 +89,13 @@ bool merges(const ObjText& text, Vec3d origin, const std::array<std::int32_t, 3>
     return false;
 }
 
-void fill_vertices(Mesh& mesh, const ObjText& text, Vec3d origin, const std::vector<ObjCorner>& corners) {
+void fill_vertices(Mesh& mesh, const IndexedFaces& text, Vec3d origin,
+                   const std::vector<FaceCorner>& corners) {
     mesh.positions.resize(corners.size());
     mesh.normals.assign(corners.size(), {});
     if (!text.uvs.empty()) mesh.uvs.assign(corners.size(), {});
     for (std::size_t v = 0; v < corners.size(); ++v) {
-        const ObjCorner& c = corners[v];
+        const FaceCorner& c = corners[v];
         mesh.positions[v] = about(origin, text.positions[static_cast<std::size_t>(c.position)]);
         if (c.uv >= 0) mesh.uvs[v] = text.uvs[static_cast<std::size_t>(c.uv)];
         if (c.normal >= 0) mesh.normals[v] = unit_or_zero(text.normals[static_cast<std::size_t>(c.normal)]);
@@ -100,10 +104,10 @@ void fill_vertices(Mesh& mesh, const ObjText& text, Vec3d origin, const std::vec
 
 }  // namespace
 
-Vec3d origin_of(const ObjText& text) {
+Vec3d origin_of(const IndexedFaces& text) {
     if (text.corners.empty()) return {};
     Vec3d lo = text.positions[static_cast<std::size_t>(text.corners[0].position)], hi = lo;
-    for (const ObjCorner& corner : text.corners) {
+    for (const FaceCorner& corner : text.corners) {
         const Vec3d p = text.positions[static_cast<std::size_t>(corner.position)];
         lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
         hi = {std::max(hi.x, p.x), std::max(hi.y, p.y), std::max(hi.z, p.z)};
@@ -113,8 +117,8 @@ Vec3d origin_of(const ObjText& text) {
             origin_along(lo.z, hi.z, extent)};
 }
 
-ObjMesh build_obj_mesh(const ObjText& text, const std::string& name, double crease_angle_deg) {
-    ObjMesh result;
+FacesMesh build_faces_mesh(const IndexedFaces& text, const std::string& name, double crease_angle_deg) {
+    FacesMesh result;
     result.origin = origin_of(text);
     Mesh& mesh = result.mesh;
     const auto count = static_cast<std::size_t>(text.triangles);
@@ -128,8 +132,8 @@ ObjMesh build_obj_mesh(const ObjText& text, const std::string& name, double crea
     ObjectTable objects(text, name);
     std::vector<Vec3f> outline;
     bool any_lacks = false;
-    for (const ObjFace& face : text.faces) {
-        const ObjCorner* corner = &text.corners[face.first_corner];
+    for (const IndexedFace& face : text.faces) {
+        const FaceCorner* corner = &text.corners[face.first_corner];
         outline.clear();
         for (std::uint32_t k = 0; k < face.corner_count; ++k) {
             outline.push_back(
@@ -161,11 +165,33 @@ ObjMesh build_obj_mesh(const ObjText& text, const std::string& name, double crea
     // Solids are judged by the file's own indices, before normals split vertices.
     std::vector<std::uint32_t> position_ids;
     position_ids.reserve(vertices.corners.size());
-    for (const ObjCorner& c : vertices.corners)
+    for (const FaceCorner& c : vertices.corners)
         position_ids.push_back(static_cast<std::uint32_t>(c.position));
     result.topology = analyse_topology(mesh, position_ids);
     compute_normals(mesh, crease_angle_deg, smoothing);
     return result;
+}
+
+void note_mesh(const FacesMesh& mesh, const std::string& file, std::vector<std::string>& notes) {
+    if (mesh.mesh.triangles.empty()) notes.push_back(fmt::format("{}: has no triangles", file));
+    if (mesh.merged > 0) {
+        notes.push_back(fmt::format(
+            "{}: {} of {} triangles collapse: the file reaches too far for its details in single precision",
+            file, mesh.merged, mesh.mesh.triangles.size()));
+    }
+}
+
+Model model_of_faces(const IndexedFaces& faces, const std::string& file, double crease_angle_deg) {
+    FacesMesh built = build_faces_mesh(faces, std::filesystem::path(file).stem().string(), crease_angle_deg);
+    Model model;
+    note_mesh(built, file, model.notes);
+    model.mesh = std::move(built.mesh);
+    model.origin = built.origin;
+    model.topology = built.topology;
+    model.without_uv = std::move(built.without_uv);
+    model.file_positions = faces.positions.size();
+    model.materials.push_back(Material{.name = "default"});
+    return model;
 }
 
 }  // namespace obscura

@@ -1,5 +1,5 @@
 // Wavefront OBJ, the polygonal part of "Object Files (.obj)", Advanced Visualizer manual, appendix B1.
-#include "app/scene/obj_text.h"
+#include "app/models/obj_text.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <charconv>
 #include <map>
 
-#include "app/scene/text_lines.h"
+#include "app/models/text_lines.h"
 #include "core/error.h"
 #include "core/topology.h"
 
@@ -34,7 +34,7 @@ struct NameList {
         if (added) names.push_back({std::string(name), line});
         return at->second;
     }
-    std::vector<ObjName> names;
+    std::vector<NameInFile> names;
     std::map<std::string, std::int32_t, std::less<>> number;
 };
 
@@ -188,8 +188,8 @@ class Parser {
         return static_cast<std::int32_t>(from_zero);
     }
 
-    ObjCorner corner(std::string_view word) const {
-        ObjCorner c;
+    FaceCorner corner(std::string_view word) const {
+        FaceCorner c;
         const std::size_t slash = word.find('/');
         c.position = index(word.substr(0, slash), word, out_.positions.size());
         if (slash == std::string_view::npos) return c;
@@ -204,7 +204,7 @@ class Parser {
     }
 
     void face(std::string_view rest) {
-        ObjFace f;
+        IndexedFace f;
         f.first_corner = static_cast<std::uint32_t>(out_.corners.size());
         for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest)) {
             if (++f.corner_count > most_face_corners) {
@@ -234,9 +234,9 @@ class Parser {
                              fmt::format("{} index {} is out of range, the file has {}", what,
                                          static_cast<std::int64_t>(index) + 1, count));
         };
-        for (const ObjFace& f : out_.faces) {
+        for (const IndexedFace& f : out_.faces) {
             for (std::uint32_t k = 0; k < f.corner_count; ++k) {
-                const ObjCorner& c = out_.corners[f.first_corner + k];
+                const FaceCorner& c = out_.corners[f.first_corner + k];
                 check(c.position, out_.positions.size(), "position", f.line);
                 check(c.uv, out_.uvs.size(), "texture", f.line);
                 check(c.normal, out_.normals.size(), "normal", f.line);

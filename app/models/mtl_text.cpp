@@ -1,9 +1,9 @@
 // tinyobjloader 2.0rc10 reads OBJ trustingly: indices out of range, words instead of numbers, polygons of
 // more than 255 corners and paths anywhere pass it without an error, and its numbers go through libm's pow,
-// whose bits vary by CPU. So the text is read by app/scene/obj_text and, for the few MTL
+// whose bits vary by CPU. So the text is read by app/models/obj_text and, for the few MTL
 // statements that a Material can hold, here; the library is left with what it does well, the option syntax of
 // texture statements.
-#include "app/scene/mtl_text.h"
+#include "app/models/mtl_text.h"
 
 #include <fmt/format.h>
 #include <tiny_obj_loader.h>
@@ -15,7 +15,7 @@
 #include <set>
 #include <string>
 
-#include "app/scene/text_lines.h"
+#include "app/models/text_lines.h"
 #include "core/error.h"
 
 namespace obscura {

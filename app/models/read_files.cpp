@@ -1,4 +1,4 @@
-#include "app/scene/read_files.h"
+#include "app/models/read_files.h"
 
 #include <sys/stat.h>
 

@@ -9,8 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/scene/read_files.h"
+#include "app/models/read_files.h"
 #include "core/error.h"
+#include "core/limits.h"
 
 namespace obscura {
 
@@ -41,6 +42,9 @@ std::filesystem::path resolve_beside(const FileAccess& access, const std::filesy
 /// and for folders, FIFOs, sockets and devices (none of which it waits for); LimitError above `max_bytes`,
 /// before anything is allocated.
 std::string read_file(const std::filesystem::path& file, std::int64_t max_bytes);
+
+/// The same of a file that holds a model or its materials. LimitError beyond an eighth of limits.memory_mib.
+std::string read_model_bytes(const std::filesystem::path& file, const Limits& limits);
 
 /// resolve_input() and read_file() in one; a link put in the file's place in between is not followed.
 std::string read_input(const FileAccess& access, std::string_view relative, std::int64_t max_bytes);

@@ -1,4 +1,4 @@
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

@@ -1,4 +1,4 @@
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 
 #include <fmt/format.h>
 
@@ -6,10 +6,10 @@
 #include <functional>
 #include <map>
 
-#include "app/scene/mtl_text.h"
-#include "app/scene/obj_mesh.h"
-#include "app/scene/obj_text.h"
-#include "app/scene/text_lines.h"
+#include "app/models/faces_mesh.h"
+#include "app/models/mtl_text.h"
+#include "app/models/obj_text.h"
+#include "app/models/text_lines.h"
 #include "core/error.h"
 
 namespace obscura {
@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 
 /// How the files that an OBJ names are reached: from disk, or from memory. Both throw MissingFile.
 struct Surroundings {
-    std::function<std::vector<MtlEntry>(const ObjName& library)> read_library;
+    std::function<std::vector<MtlEntry>(const NameInFile& library)> read_library;
     std::function<std::string(const MtlEntry& entry)> find_texture;
 };
 
 /// Runs fn; what it misses is noted instead, where that is allowed.
 template <class Fn>
-void tolerate_missing(ObjModel& model, bool allowed, Fn&& fn) {
+void tolerate_missing(Model& model, bool allowed, Fn&& fn) {
     try {
         fn();
     } catch (const MissingFile& error) {
@@ -42,7 +42,7 @@ using MtlEntries = std::map<std::string, MtlEntry, std::less<>>;
 
 /// The material that a usemtl line means: the one of the same whole name, or else of the same name when what
 /// stands behind a # is taken for a comment, on either side. Null when there is none.
-const MtlEntry* find_entry(const MtlEntries& entries, const ObjName& used, const std::string& file) {
+const MtlEntry* find_entry(const MtlEntries& entries, const NameInFile& used, const std::string& file) {
     const std::string bare(without_comment(used.name));
     for (const std::string& name : {used.name, bare}) {
         if (const auto at = entries.find(name); at != entries.end()) return &at->second;
@@ -60,20 +60,20 @@ const MtlEntry* find_entry(const MtlEntries& entries, const ObjName& used, const
     return found;
 }
 
-bool is_replaced(const ObjOptions& options, const std::string& name) {
+bool is_replaced(const ModelOptions& options, const std::string& name) {
     return std::find(options.replaced.begin(), options.replaced.end(), name) != options.replaced.end();
 }
 
 /// The name under which the scene replaces the material of a usemtl line; empty when it does not.
-std::string replaced_name(const ObjOptions& options, const ObjName& used) {
+std::string replaced_name(const ModelOptions& options, const NameInFile& used) {
     const std::string bare(without_comment(used.name));
     return is_replaced(options, used.name) ? used.name : is_replaced(options, bare) ? bare : "";
 }
 
-MtlEntries read_libraries(ObjModel& model, const ObjText& text, const Surroundings& around,
-                          const ObjOptions& options) {
+MtlEntries read_libraries(Model& model, const ObjText& text, const Surroundings& around,
+                          const ModelOptions& options) {
     MtlEntries entries;
-    for (const ObjName& library : text.libraries) {
+    for (const NameInFile& library : text.libraries) {
         tolerate_missing(model, options.allow_missing, [&] {
             for (MtlEntry& e : around.read_library(library)) {
                 if (entries.contains(e.name))
@@ -129,15 +129,15 @@ class Losses {
     std::vector<Row> rows_;
 };
 
-void add_materials(ObjModel& model, const ObjText& text, const std::string& file, const Surroundings& around,
-                   const ObjOptions& options) {
-    const auto replaced = [&](const ObjName& used) { return !replaced_name(options, used).empty(); };
+void add_materials(Model& model, const ObjText& text, const std::string& file, const Surroundings& around,
+                   const ModelOptions& options) {
+    const auto replaced = [&](const NameInFile& used) { return !replaced_name(options, used).empty(); };
     const bool all_replaced = !text.material_names.empty() &&
                               std::all_of(text.material_names.begin(), text.material_names.end(), replaced);
     const MtlEntries entries = all_replaced ? MtlEntries{} : read_libraries(model, text, around, options);
     std::map<std::string, std::int32_t> texture_number;
     Losses losses;
-    for (const ObjName& used : text.material_names) {
+    for (const NameInFile& used : text.material_names) {
         Material material;
         material.name = used.name;
         if (replaced(used)) {
@@ -171,7 +171,7 @@ void add_materials(ObjModel& model, const ObjText& text, const std::string& file
     losses.write(model.notes);
 }
 
-void add_default_material(ObjModel& model, const ObjText& text) {
+void add_default_material(Model& model, const ObjText& text) {
     const auto default_material = static_cast<std::uint32_t>(text.material_names.size());
     const auto& used = model.mesh.material;
     if (std::find(used.begin(), used.end(), default_material) == used.end()) return;
@@ -180,25 +180,20 @@ void add_default_material(ObjModel& model, const ObjText& text) {
 }
 
 /// What of the text the mesh does without.
-void note_skipped(ObjModel& model, const ObjText& text, const ObjMesh& mesh, const std::string& file) {
+void note_skipped(Model& model, const ObjText& text, const FacesMesh& mesh, const std::string& file) {
     for (const ObjSkipped& s : text.skipped) {
         model.notes.push_back(fmt::format("{}:{}: {} {} not read ({} line{})", file, s.line, s.what,
                                           s.what[0] == '\'' ? "is" : "are", s.count,
                                           s.count == 1 ? "" : "s"));
     }
-    if (mesh.mesh.triangles.empty()) model.notes.push_back(fmt::format("{}: has no triangles", file));
-    if (mesh.merged > 0) {
-        model.notes.push_back(fmt::format(
-            "{}: {} of {} triangles collapse: the file reaches too far for its details in single precision",
-            file, mesh.merged, mesh.mesh.triangles.size()));
-    }
+    note_mesh(mesh, file, model.notes);
 }
 
-ObjModel build(std::string_view obj, const std::string& file, const std::string& name,
-               const Surroundings& around, const Limits& limits, const ObjOptions& options) {
+Model build(std::string_view obj, const std::string& file, const std::string& name,
+            const Surroundings& around, const Limits& limits, const ModelOptions& options) {
     ObjText text = parse_obj_text(obj, file, limits);
-    ObjMesh built = build_obj_mesh(text, name, options.crease_angle_deg);
-    ObjModel model;
+    FacesMesh built = build_faces_mesh(text, name, options.crease_angle_deg);
+    Model model;
     note_skipped(model, text, built, file);
     model.mesh = std::move(built.mesh);
     model.origin = built.origin;
@@ -214,14 +209,6 @@ ObjModel build(std::string_view obj, const std::string& file, const std::string&
     return model;
 }
 
-std::string read_limited(const fs::path& file, const Limits& limits) {
-    try {
-        return read_file(file, limits.memory_mib * (1024 * 1024 / 8));
-    } catch (const LimitError& error) {
-        throw LimitError(fmt::format("{}, an eighth of limits.memory_mib", error.what()));
-    }
-}
-
 /// The error of a named file, told at the place that names it.
 [[noreturn]] void rethrow_at(const std::string& file, int line, std::string_view what,
                              const InputError& error) {
@@ -231,7 +218,8 @@ std::string read_limited(const fs::path& file, const Limits& limits) {
 }
 
 /// The files that the rest of an mtllib line names: one whose name may have blanks, or several.
-std::vector<fs::path> library_files(const ObjName& library, const fs::path& obj, const FileAccess& access) {
+std::vector<fs::path> library_files(const NameInFile& library, const fs::path& obj,
+                                    const FileAccess& access) {
     const fs::path folder = obj.parent_path();
     const std::string what = fmt::format("mtllib {}", shown(library.name));
     std::vector<fs::path> files;
@@ -254,14 +242,14 @@ std::vector<fs::path> library_files(const ObjName& library, const fs::path& obj,
 
 }  // namespace
 
-ObjModel load_obj(const fs::path& file, const FileAccess& access, const Limits& limits,
-                  const ObjOptions& options) {
-    const std::string bytes = read_limited(file, limits);
+Model load_obj(const fs::path& file, const FileAccess& access, const Limits& limits,
+               const ModelOptions& options) {
+    const std::string bytes = read_model_bytes(file, limits);
     Surroundings around;
-    around.read_library = [&](const ObjName& library) {
+    around.read_library = [&](const NameInFile& library) {
         std::vector<MtlEntry> entries;
         for (const fs::path& path : library_files(library, file, access)) {
-            for (MtlEntry& e : parse_mtl_text(read_limited(path, limits), path.string()))
+            for (MtlEntry& e : parse_mtl_text(read_model_bytes(path, limits), path.string()))
                 entries.push_back(std::move(e));
         }
         return entries;
@@ -284,10 +272,10 @@ ObjModel load_obj(const fs::path& file, const FileAccess& access, const Limits& 
     return build(bytes, file.string(), file.stem().string(), around, limits, options);
 }
 
-ObjModel obj_from_text(std::string_view obj, std::string_view mtl, const Limits& limits,
-                       const ObjOptions& options) {
+Model obj_from_text(std::string_view obj, std::string_view mtl, const Limits& limits,
+                    const ModelOptions& options) {
     Surroundings around;
-    around.read_library = [&](const ObjName&) { return parse_mtl_text(mtl, "text.mtl"); };
+    around.read_library = [&](const NameInFile&) { return parse_mtl_text(mtl, "text.mtl"); };
     around.find_texture = [](const MtlEntry& entry) { return std::string(without_comment(entry.texture)); };
     return build(obj, "text.obj", "text", around, limits, options);
 }

@@ -1,8 +1,8 @@
 // Our OBJ reader against tinyobjloader: what we accept, the library must read alike (tests/fuzz/obj_peer.h).
 // The places where the two are known to differ are rows of a table (tests/fuzz/obj_dialect.h); the tests
 // print how often each was met and prove that each is still true of the library.
-#include "tests/core/shared_folder.h"
 #include "tests/fuzz/obj_peer.h"
+#include "tests/core/shared_folder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,9 +15,9 @@
 #include <sstream>
 #include <vector>
 
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 #include "core/error.h"
-#include "tests/scene/obj_writer.h"
+#include "tests/models/obj_writer.h"
 
 namespace obscura {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace obscura {
 namespace {
 
 /// Every text of these tests is one that tinyobjloader must read alike.
-ObjModel read(std::string_view obj, std::string_view mtl = "", const ObjOptions& options = {}) {
+Model read(std::string_view obj, std::string_view mtl = "", const ModelOptions& options = {}) {
     const PeerResult peer = read_by_both(obj, mtl, Limits{});
     EXPECT_TRUE(peer.compared) << obj;
     EXPECT_EQ(peer.difference, "") << obj << mtl;
@@ -20,7 +20,7 @@ ObjModel read(std::string_view obj, std::string_view mtl = "", const ObjOptions&
 }
 
 TEST(ObjFile, PositionsFacesAndRelativeIndices) {
-    const ObjModel model = read(
+    const Model model = read(
         "v 0 0 0\nv 1 0 0\nv +1 1.5e0 -0\nv .5 2. 1e-400\n"
         "f 1 2 3\nf -4 -2 -1\n");
     ASSERT_EQ(model.mesh.triangles.size(), 2u);
@@ -43,16 +43,16 @@ TEST(ObjFile, LineEndsMarksAndContinuations) {
         "# a comment\nv 0 0 0 # at the origin\n\n   \nv\t1 0  0\nv 0 1 0 1.0\nf 1 2 3 # done\n",
         "f 1 2 3\n" + plain.substr(0, 24),  // the face points ahead
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvp 0 0\nl 1 2\np 1\nlod 3\nf 1 2 3\n"};
-    const ObjModel expected = read(plain);
+    const Model expected = read(plain);
     for (const std::string& text : variants) {
-        const ObjModel model = read(text);
+        const Model model = read(text);
         EXPECT_EQ(model.mesh.positions, expected.mesh.positions) << text;
         EXPECT_EQ(model.mesh.triangles, expected.mesh.triangles) << text;
     }
 }
 
 TEST(ObjFile, CornersShareVerticesWhenAllIndicesAgree) {
-    const ObjModel model = read(
+    const Model model = read(
         "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
         "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 0.5\n"
         "vn 0 0 3\nvn 1 0 1\n"
@@ -66,7 +66,7 @@ TEST(ObjFile, CornersShareVerticesWhenAllIndicesAgree) {
 }
 
 TEST(ObjFile, MixedCornersFillTheGaps) {
-    const ObjModel model = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nvn 0 1 0\nf 1/1 2//1 3\n");
+    const Model model = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 1\nvn 0 1 0\nf 1/1 2//1 3\n");
     ASSERT_EQ(model.mesh.uvs.size(), 3u);
     EXPECT_EQ(model.mesh.uvs[0], (Vec2f{1, 1}));
     EXPECT_EQ(model.mesh.uvs[2], (Vec2f{0, 0}));
@@ -83,7 +83,7 @@ TEST(ObjFile, ThreeHundredCornersAndConcavePolygons) {
     text << "f";
     for (int i = 1; i <= 300; ++i)
         text << " " << i;
-    const ObjModel model = read(text.str());
+    const Model model = read(text.str());
     ASSERT_EQ(model.mesh.triangles.size(), 298u);
     double area = 0;
     for (const Triangle& t : model.mesh.triangles) {
@@ -100,12 +100,12 @@ TEST(ObjFile, ThreeHundredCornersAndConcavePolygons) {
 
 TEST(ObjFile, ObjectsGroupsAndSmoothing) {
     const std::string roof = "v 0 0 0\nv 0 0 1\nv 1 1 0\nv -1 1 0\n";
-    const ObjModel objects =
+    const Model objects =
         read(roof + "o left wing\nf 1 2 3\no empty\no right\nf 2 1 4\no left wing\nf 1 3 2\n");
     ASSERT_EQ(objects.mesh.objects.size(), 2u);
     EXPECT_EQ(objects.mesh.objects[0].name, "left wing");
     EXPECT_EQ(objects.mesh.object, (std::vector<std::uint32_t>{0, 1, 0}));
-    const ObjModel groups = read(roof + "g a\nf 1 2 3\ng b\nf 2 1 4\n");
+    const Model groups = read(roof + "g a\nf 1 2 3\ng b\nf 2 1 4\n");
     ASSERT_EQ(groups.mesh.objects.size(), 2u);
     EXPECT_EQ(groups.mesh.objects[1].name, "b");
 
@@ -116,7 +116,7 @@ TEST(ObjFile, ObjectsGroupsAndSmoothing) {
     EXPECT_EQ(vertices(""), 6u);
     EXPECT_EQ(vertices("s 1\n"), 4u);
     EXPECT_EQ(vertices("s off\n"), 6u);
-    ObjOptions wide;
+    ModelOptions wide;
     wide.crease_angle_deg = 100;
     EXPECT_EQ(read(roof + "f 1 2 3\nf 2 1 4\n", "", wide).mesh.positions.size(), 4u);
 }
@@ -130,11 +130,10 @@ TEST(ObjFile, MaterialsFromMtl) {
         "newmtl gold\nKd 0 0 0\nKs 1 0.8 0.3\nNs 510\nKe 1 2 3\n"
         "newmtl pbr\nPr 0.25\nPm 0.5\nmap_Kd my wood.png\n"
         "newmtl unused\nmap_Kd other.png\n";
-    const ObjModel model =
-        read(std::string("mtllib a.mtl\n") + triangle +
-                 "usemtl gold\nf 1 2 3\nusemtl matte red\nf 1 2 3\nusemtl glossy\nf 1 2 3\n"
-                 "usemtl pbr\nf 1 2 3\nusemtl gold\nf 1 2 3\n",
-             mtl);
+    const Model model = read(std::string("mtllib a.mtl\n") + triangle +
+                                 "usemtl gold\nf 1 2 3\nusemtl matte red\nf 1 2 3\nusemtl glossy\nf 1 2 3\n"
+                                 "usemtl pbr\nf 1 2 3\nusemtl gold\nf 1 2 3\n",
+                             mtl);
     ASSERT_EQ(model.materials.size(), 4u);
     EXPECT_EQ(model.mesh.material, (std::vector<std::uint32_t>{0, 1, 2, 3, 0}));
     const Material &gold = model.materials[0], &red = model.materials[1], &glossy = model.materials[2];
@@ -165,7 +164,7 @@ TEST(ObjFile, FilesBesideTheFile) {
         folder.write("models/house.obj", std::string("mtllib first.mtl\nmtllib lib/second one.mtl\n") +
                                              triangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n");
     const FileAccess access{folder.path, {}};
-    const ObjModel model = load_obj(file, access, Limits{});
+    const Model model = load_obj(file, access, Limits{});
     ASSERT_EQ(model.materials.size(), 2u);
     EXPECT_EQ(model.mesh.objects[0].name, "house");
     EXPECT_EQ(model.texture_files, std::vector<std::string>{(folder.path / "models/wood.png").string()});
@@ -182,9 +181,9 @@ TEST(ObjFile, AllowMissingNotesWhatIsMissing) {
     folder.write("have.mtl", "newmtl a\nmap_Kd gone.png\n");
     const auto file = folder.write("x.obj", std::string("mtllib have.mtl\nmtllib gone.mtl\n") + triangle +
                                                 "usemtl a\nf 1 2 3\nusemtl nowhere\nf 1 2 3\n");
-    ObjOptions options;
+    ModelOptions options;
     options.allow_missing = true;
-    const ObjModel model = load_obj(file, FileAccess{folder.path, {}}, Limits{}, options);
+    const Model model = load_obj(file, FileAccess{folder.path, {}}, Limits{}, options);
     ASSERT_EQ(model.missing.size(), 3u);
     EXPECT_NE(model.missing[0].find("x.obj:2: mtllib gone.mtl"), std::string::npos) << model.missing[0];
     EXPECT_NE(model.missing[1].find("have.mtl:2: map_Kd gone.png"), std::string::npos) << model.missing[1];
@@ -207,8 +206,8 @@ TEST(ObjFile, CommentsAndLineEndsLoseNothing) {
          }) {
         EXPECT_EQ(read(text).mesh.triangles.size(), 2u) << text;
     }
-    const ObjModel model = read(std::string("mtllib a.mtl\r") + triangle + "usemtl m\rf 1 2 3\r",
-                                "# C:\\mtl\\\rnewmtl m\r# Kd\\\rKd 1 0 0#red\r");
+    const Model model = read(std::string("mtllib a.mtl\r") + triangle + "usemtl m\rf 1 2 3\r",
+                             "# C:\\mtl\\\rnewmtl m\r# Kd\\\rKd 1 0 0#red\r");
     EXPECT_EQ(model.materials[0].base_color, (Vec3f{1, 0, 0}));
 }
 
@@ -231,7 +230,7 @@ TEST(ObjFile, CommentsBehindNames) {
 
 TEST(ObjFile, TextureOptionsMayLackNumbers) {
     for (const char* options : {"-s 1 -o 0 0", "-s 1 1 -t 0", "-o 0", "-clamp off -mm 0 1 -s 1 1 1", ""}) {
-        const ObjModel model =
+        const Model model =
             obj_from_text(std::string("mtllib a.mtl\n") + triangle + "usemtl m\nf 1 2 3\n",
                           std::string("newmtl m\nmap_Kd ") + options + " my t.png # wood\n", Limits{});
         EXPECT_EQ(model.texture_files, std::vector<std::string>{"my t.png"}) << options;
@@ -239,7 +238,7 @@ TEST(ObjFile, TextureOptionsMayLackNumbers) {
 }
 
 TEST(ObjFile, WhatIsNotReadIsNotedOnceOfAKind) {
-    const ObjModel model = read(
+    const Model model = read(
         std::string("mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 1 0 0\nl 1 2\nl 2 3\n") +
             "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\nusemtl d\nf 1 2 3\n",
         "newmtl a\nd 0.2\nTr 0.8\nmap_d mask.png\nmap_Bump a.png\nmap_Bump b.png\n"
@@ -279,7 +278,7 @@ TEST(ObjFile, WhatChangesOnTheWayToAMaterialIsNotedOnceOfAKind) {
     EXPECT_EQ(notes("Kd 1 1 1\nKs 0 0 0\nNs 20\n"), Notes{});
     EXPECT_EQ(notes("Kd 0 0 0\nKs 1 0.5 0.5\nKe 3 3 3\n"), Notes{});
     EXPECT_EQ(notes("Kd 1 1 1\nPr 0.3\nNs 20\n"), Notes{});
-    const ObjModel two =
+    const Model two =
         read(std::string("mtllib a.mtl\n") + triangle + "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n",
              "newmtl a\nKd 2 2 2\nnewmtl b\nKd 3 3 3\nnewmtl unused\nKd 4 4 4\n");
     EXPECT_EQ(two.notes, Notes{"text.mtl: 'a', 'b': Kd is above 1 and is cut to 1"});
@@ -287,7 +286,7 @@ TEST(ObjFile, WhatChangesOnTheWayToAMaterialIsNotedOnceOfAKind) {
 
 TEST(ObjFile, SurveyedCoordinatesKeepTheirDetails) {
     // A wall of 0.2 m at 5,400,000 m, where single precision has steps of half a metre.
-    const ObjModel model = read(
+    const Model model = read(
         "v 500000.000 0 5400000.300\nv 500000.000 0 5400000.500\nv 500000.000 1 5400000.300\n"
         "v 500002.000 0 5400000.300\nf 1 2 3\nf 1 2 4\n");
     EXPECT_EQ(model.topology.degenerate_triangles, 0u);
@@ -298,7 +297,7 @@ TEST(ObjFile, SurveyedCoordinatesKeepTheirDetails) {
     // Near the origin, or on both sides of it, floats are what they were.
     EXPECT_EQ(read("v 3 0 0\nv 4 0 0\nv 3 1 0\nf 1 2 3\n").origin, (Vec3d{}));
     // One file that has both: what merges is told.
-    const ObjModel torn = read(
+    const Model torn = read(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5400000.3 0 0\nv 5400000.4 0 0\nv 5400000.3 1 0\nf 1 2 3\nf 4 5 6\n");
     ASSERT_EQ(torn.notes.size(), 1u);
     EXPECT_NE(torn.notes[0].find("1 of 2 triangles collapse"), std::string::npos) << torn.notes[0];
@@ -308,10 +307,10 @@ TEST(ObjFile, MaterialsThatAreReplacedNeedNotBeThere) {
     const TemporaryFolder folder;
     folder.write("c.mtl", "newmtl x\nmap_Kd gone.jpg\nnewmtl y\n");
     const FileAccess access{folder.path, {}};
-    const auto load = [&](const std::string& head, const std::string& faces, const ObjOptions& options) {
+    const auto load = [&](const std::string& head, const std::string& faces, const ModelOptions& options) {
         return load_obj(folder.write("a.obj", head + triangle + faces), access, Limits{}, options);
     };
-    ObjOptions none, x_replaced;
+    ModelOptions none, x_replaced;
     none.materials = false;
     x_replaced.replaced = {"x"};
     for (const char* head : {"mtllib gone.mtl\n", "", "mtllib c.mtl\n"}) {
@@ -337,7 +336,7 @@ TEST(ObjFile, BackslashesBetweenFolders) {
 TEST(ObjFile, EmptyAndDegenerateModelsAreModels) {
     EXPECT_TRUE(read("").mesh.triangles.empty());
     EXPECT_TRUE(read("# nothing\nv 1 2 3\n").mesh.positions.empty());
-    const ObjModel flat = read("v 0 0 0\nv 1 1 1\nf 1 2 2\nf 1 2 1 2\n");
+    const Model flat = read("v 0 0 0\nv 1 1 1\nf 1 2 2\nf 1 2 1 2\n");
     EXPECT_EQ(flat.topology.degenerate_triangles, 3u);
     EXPECT_EQ(flat.mesh.triangles.size(), 3u);
 }

@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "app/scene/obj_file.h"
+#include "app/models/obj_file.h"
 #include "tests/core/temporary_folder.h"
 
 namespace obscura {

@@ -1,4 +1,4 @@
-#include "app/scene/file_access.h"
+#include "app/models/file_access.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -136,6 +136,14 @@ std::string read_file(const fs::path& file, std::int64_t max_bytes) {
 
 std::string read_input(const FileAccess& access, std::string_view relative, std::int64_t max_bytes) {
     return read_opened(resolve_input(access, relative), O_NOFOLLOW, max_bytes);
+}
+
+std::string read_model_bytes(const std::filesystem::path& file, const Limits& limits) {
+    try {
+        return read_file(file, limits.memory_mib * (1024 * 1024 / 8));
+    } catch (const LimitError& error) {
+        throw LimitError(fmt::format("{}, an eighth of limits.memory_mib", error.what()));
+    }
 }
 
 }  // namespace obscura

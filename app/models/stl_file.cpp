@@ -1,0 +1,245 @@
+#include "app/models/stl_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <unordered_map>
+
+#include "app/models/faces_mesh.h"
+#include "app/models/file_access.h"
+#include "app/models/text_lines.h"
+#include "core/count_text.h"
+#include "core/error.h"
+
+namespace obscura {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+constexpr std::size_t head_bytes = 84, facet_bytes = 50;
+
+struct CornerHash {
+    std::size_t operator()(const std::array<std::uint32_t, 3>& bits) const {
+        std::uint64_t h = 0;
+        for (const std::uint32_t b : bits)
+            h = (h ^ b) * 0x9e3779b97f4a7c15u;
+        return static_cast<std::size_t>(h ^ h >> 32);
+    }
+};
+
+/// Triangles whose equal corners become one.
+class StlFaces {
+  public:
+    StlFaces(const std::string& file, const Limits& limits) : file_(file), limits_(limits) {}
+
+    void add(const std::array<Vec3f, 3>& corner, std::int32_t object, int line) {
+        if (++faces.triangles > limits_.triangles) {
+            throw LimitError(
+                fmt::format("{}: has more than limits.triangles = {} triangles", file_, limits_.triangles));
+        }
+        IndexedFace face;
+        face.first_corner = static_cast<std::uint32_t>(faces.corners.size());
+        face.corner_count = 3;
+        face.object = object;
+        face.line = line;
+        for (const Vec3f& p : corner)
+            faces.corners.push_back({index_of(p), -1, -1});
+        faces.faces.push_back(face);
+    }
+
+    IndexedFaces faces;
+
+  private:
+    std::int32_t index_of(Vec3f p) {
+        // 0 and -0 are one number.
+        const std::array<std::uint32_t, 3> bits = {std::bit_cast<std::uint32_t>(p.x + 0.0f),
+                                                   std::bit_cast<std::uint32_t>(p.y + 0.0f),
+                                                   std::bit_cast<std::uint32_t>(p.z + 0.0f)};
+        const auto [at, is_new] = known_.try_emplace(bits, static_cast<std::int32_t>(faces.positions.size()));
+        if (is_new) faces.positions.push_back(to_double(p));
+        return at->second;
+    }
+
+    const std::string& file_;
+    const Limits& limits_;
+    std::unordered_map<std::array<std::uint32_t, 3>, std::int32_t, CornerHash> known_;
+};
+
+std::uint32_t facets_of(std::string_view bytes) {
+    std::uint32_t count = 0;
+    if (bytes.size() >= head_bytes) std::memcpy(&count, bytes.data() + head_bytes - 4, 4);
+    return count;
+}
+
+bool is_binary(std::string_view bytes) {
+    return bytes.size() >= head_bytes &&
+           bytes.size() == head_bytes + facet_bytes * std::uint64_t{facets_of(bytes)};
+}
+
+/// Notes of what is left out are added.
+IndexedFaces read_binary(std::string_view bytes, const std::string& file, const Limits& limits,
+                         std::vector<std::string>& notes) {
+    StlFaces out(file, limits);
+    std::size_t coloured = 0;
+    for (std::uint32_t i = 0; i < facets_of(bytes); ++i) {
+        const char* at = bytes.data() + head_bytes + facet_bytes * std::size_t{i};
+        float number[9];
+        std::memcpy(number, at + 12, sizeof number);  // behind the normal
+        std::uint16_t attribute = 0;
+        std::memcpy(&attribute, at + 48, 2);
+        coloured += attribute != 0;
+        for (const float v : number) {
+            if (!std::isfinite(v))
+                throw InputError(file, fmt::format("triangle {}: a coordinate is not finite", i));
+        }
+        out.add({Vec3f{number[0], number[1], number[2]}, Vec3f{number[3], number[4], number[5]},
+                 Vec3f{number[6], number[7], number[8]}},
+                -1, static_cast<int>(i));
+    }
+    if (coloured > 0) {
+        notes.push_back(fmt::format("{}: attributes (colours) of {} are not read", file,
+                                    count_text(coloured, "triangle")));
+    }
+    return std::move(out.faces);
+}
+
+class TextReader {
+  public:
+    TextReader(std::string_view text, const std::string& file, const Limits& limits)
+        : lines_(text), file_(file), out_(file, limits) {}
+
+    IndexedFaces run() {
+        while (next()) {
+            expect("solid");
+            begin_solid(trimmed(rest_));
+            for (;;) {
+                need("'facet' or 'endsolid'");
+                if (word_ == "endsolid") break;
+                read_facet();
+            }
+        }
+        return std::move(out_.faces);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const {
+        throw InputError(file_, lines_.number(), 0, message);
+    }
+
+    /// The next line that is not empty, and its first word.
+    bool next() {
+        do {
+            if (!lines_.next()) return false;
+            rest_ = lines_.line();
+            word_ = take_word(rest_);
+        } while (word_.empty());
+        return true;
+    }
+
+    void need(const char* what) {
+        if (!next()) fail(fmt::format("the file ends where {} is expected", what));
+    }
+
+    void expect(std::string_view word) const {
+        if (word_ != word) fail(fmt::format("expected '{}', not '{}'", word, shown(word_)));
+    }
+
+    void expect_next(std::string_view word) {
+        need(fmt::format("'{}'", word).c_str());
+        expect(word);
+    }
+
+    void expect_end() {
+        if (const std::string_view more = take_word(rest_); !more.empty())
+            fail(fmt::format("'{}' is too much here", shown(more)));
+    }
+
+    Vec3f numbers() {
+        float v[3];
+        for (float& x : v) {
+            const std::string_view number = take_word(rest_);
+            if (number.empty()) fail("three numbers are expected");
+            x = parse_float(number, {file_, lines_.number()});
+        }
+        expect_end();
+        return {v[0], v[1], v[2]};
+    }
+
+    void begin_solid(std::string_view name) {
+        auto& names = out_.faces.object_names;
+        object_ = -1;
+        if (name.empty()) return;
+        for (std::size_t i = 0; i < names.size(); ++i)
+            if (names[i].name == name) object_ = static_cast<std::int32_t>(i);
+        if (object_ >= 0) return;
+        object_ = static_cast<std::int32_t>(names.size());
+        names.push_back({std::string(name), lines_.number()});
+    }
+
+    void read_facet() {
+        expect("facet");
+        const int line = lines_.number();
+        if (take_word(rest_) != "normal") fail("expected 'facet normal'");
+        read_normal();
+        expect_next("outer");
+        if (take_word(rest_) != "loop") fail("expected 'outer loop'");
+        expect_end();
+        std::array<Vec3f, 3> corner;
+        for (Vec3f& p : corner) {
+            expect_next("vertex");
+            p = numbers();
+        }
+        need("'endloop'");
+        if (word_ == "vertex") fail("a facet of more than three corners");
+        expect("endloop");
+        expect_next("endfacet");
+        out_.add(corner, object_, line);
+    }
+
+    /// Not used, and of degenerate triangles often no number at all.
+    void read_normal() {
+        for (int k = 0; k < 3; ++k)
+            if (take_word(rest_).empty()) fail("three numbers are expected");
+        expect_end();
+    }
+
+    LineReader lines_;
+    const std::string& file_;
+    StlFaces out_;
+    std::string_view rest_, word_;
+    std::int32_t object_ = -1;
+};
+
+}  // namespace
+
+Model stl_from_bytes(std::string_view bytes, const std::string& file, const Limits& limits,
+                     const ModelOptions& options) {
+    std::vector<std::string> notes;
+    IndexedFaces faces;
+    if (is_binary(bytes)) {
+        faces = read_binary(bytes, file, limits, notes);
+    } else if (const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+               first != std::string_view::npos && bytes.substr(first).starts_with("solid")) {
+        faces = TextReader(bytes, file, limits).run();
+    } else if (bytes.size() < head_bytes) {
+        throw InputError(file,
+                         fmt::format("is no STL file: {} and no 'solid'", count_text(bytes.size(), "byte")));
+    } else {
+        throw InputError(
+            file, fmt::format("is no STL file, or cut: a binary one of {} has {} bytes, not {}",
+                              count_text(std::int64_t{facets_of(bytes)}, "triangle"),
+                              head_bytes + facet_bytes * std::uint64_t{facets_of(bytes)}, bytes.size()));
+    }
+    Model model = model_of_faces(faces, file, options.crease_angle_deg);
+    model.notes.insert(model.notes.begin(), notes.begin(), notes.end());
+    return model;
+}
+
+Model load_stl(const std::filesystem::path& file, const Limits& limits, const ModelOptions& options) {
+    return stl_from_bytes(read_model_bytes(file, limits), file.string(), limits, options);
+}
+
+}  // namespace obscura
