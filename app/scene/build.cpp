@@ -9,11 +9,11 @@
 #include <limits>
 #include <map>
 
+#include "app/models/model_file.h"
 #include "app/scene/aperture_file.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
 #include "app/scene/mesh_transform.h"
-#include "app/models/model_file.h"
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
 #include "app/scene/texture_notes.h"

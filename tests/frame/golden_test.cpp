@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "app/frame/render_frame.h"
-#include "app/scene/build.h"
 #include "app/models/file_access.h"
+#include "app/scene/build.h"
 #include "core/file_output.h"
 #include "core/hash.h"
 #include "core/image_io.h"

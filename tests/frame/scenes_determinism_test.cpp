@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "app/frame/render_frame.h"
-#include "app/scene/build.h"
 #include "app/models/file_access.h"
+#include "app/scene/build.h"
 #include "core/isa.h"
 #include "tests/frame/one_picture.h"
 

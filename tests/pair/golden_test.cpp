@@ -9,9 +9,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/models/file_access.h"
 #include "app/pair/pair.h"
 #include "app/scene/build.h"
-#include "app/models/file_access.h"
 #include "app/scene/stereo_settings.h"
 #include "core/hash.h"
 

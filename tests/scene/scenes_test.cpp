@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "app/scene/build.h"
 #include "app/models/file_access.h"
+#include "app/scene/build.h"
 #include "app/scene/scene_file.h"
 #include "scenes/generators.h"
 

@@ -65,9 +65,7 @@ MiddleView photograph(const DisparityMap& map) {
 
 class StereoData : public testing::Test {
   protected:
-    void SetUp() override {
-        SKIP_WITHOUT(folder / "cones_disp2.pgm");
-    }
+    void SetUp() override { SKIP_WITHOUT(folder / "cones_disp2.pgm"); }
 };
 
 TEST_F(StereoData, LeftMapDrawnForTheRightEyeIsItsTruth) {
