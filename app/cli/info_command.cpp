@@ -133,10 +133,10 @@ int info_command(const InfoOptions& options) {
 }
 
 int run_info(const Arguments& arguments) {
-    Flags flags(
-        "info [options] FILE",
-        "Prints what a mesh file (Wavefront OBJ, PLY, STL) holds: triangles, components closed or open, open "
-        "edges, bounding box in the file's own units, degenerate triangles.");
+    Flags flags("info [options] FILE",
+                "Prints what a mesh file (Wavefront OBJ, glTF, PLY, STL) holds: triangles, components closed "
+                "or open, open "
+                "edges, bounding box in the file's own units, degenerate triangles.");
     std::string file;
     std::vector<std::string> allowed;
     InfoOptions options;

@@ -16,6 +16,7 @@ struct Model {
     Vec3d origin;  ///< to be added for the file's own frame; 0 unless its numbers are large, see origin_of()
     std::vector<Material> materials;
     std::vector<std::string> texture_files;  ///< canonical paths; Material::texture is an index into these
+    std::vector<std::string> texture_bytes;  ///< of those that lie in the model's file; empty: none does
     TopologyReport topology;
     std::vector<bool> without_uv;      ///< triangles that textures do not show on, see FacesMesh
     std::size_t file_positions = 0;    ///< points that the file lists, used or not

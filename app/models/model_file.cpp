@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "app/models/gltf_file.h"
 #include "app/models/obj_file.h"
 #include "app/models/ply_file.h"
 #include "app/models/stl_file.h"
@@ -28,6 +29,7 @@ std::string kind_of_content(const std::filesystem::path& file) {
     const std::string_view begin(head);
     if (begin.starts_with("ply\n") || begin.starts_with("ply\r")) return ".ply";
     if (begin.starts_with("solid")) return ".stl";
+    if (begin.starts_with("glTF")) return ".glb";
     return ".obj";
 }
 
@@ -37,12 +39,14 @@ Model load_model(const std::filesystem::path& file, const FileAccess& access, co
                  const ModelOptions& options) {
     std::string kind = ending_of(file);
     for (const char* other : {".fbx", ".dae", ".3ds", ".blend", ".usd", ".usda", ".usdc", ".usdz", ".abc",
-                              ".x3d", ".wrl", ".off", ".step", ".stp", ".iges", ".igs", ".gltf", ".glb"}) {
+                              ".x3d", ".wrl", ".off", ".step", ".stp", ".iges", ".igs"}) {
         if (kind == other)
             throw InputError(file.string(),
-                             fmt::format("{} files are not read; OBJ, PLY and STL are", other));
+                             fmt::format("{} files are not read; OBJ, glTF, PLY and STL are", other));
     }
-    if (kind != ".obj" && kind != ".ply" && kind != ".stl") kind = kind_of_content(file);
+    if (kind != ".obj" && kind != ".ply" && kind != ".stl" && kind != ".gltf" && kind != ".glb")
+        kind = kind_of_content(file);
+    if (kind == ".gltf" || kind == ".glb") return load_gltf(file, access, limits, options);
     if (kind == ".ply") return load_ply(file, limits, options);
     if (kind == ".stl") return load_stl(file, limits, options);
     return load_obj(file, access, limits, options);

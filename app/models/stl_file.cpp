@@ -6,10 +6,10 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <unordered_map>
 
 #include "app/models/faces_mesh.h"
 #include "app/models/file_access.h"
+#include "app/models/point_index.h"
 #include "app/models/text_lines.h"
 #include "core/count_text.h"
 #include "core/error.h"
@@ -20,15 +20,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::size_t head_bytes = 84, facet_bytes = 50;
-
-struct CornerHash {
-    std::size_t operator()(const std::array<std::uint32_t, 3>& bits) const {
-        std::uint64_t h = 0;
-        for (const std::uint32_t b : bits)
-            h = (h ^ b) * 0x9e3779b97f4a7c15u;
-        return static_cast<std::size_t>(h ^ h >> 32);
-    }
-};
 
 /// Triangles whose equal corners become one.
 class StlFaces {
@@ -46,26 +37,16 @@ class StlFaces {
         face.object = object;
         face.line = line;
         for (const Vec3f& p : corner)
-            faces.corners.push_back({index_of(p), -1, -1});
+            faces.corners.push_back({known_.index_of(to_double(p), faces.positions), -1, -1});
         faces.faces.push_back(face);
     }
 
     IndexedFaces faces;
 
   private:
-    std::int32_t index_of(Vec3f p) {
-        // 0 and -0 are one number.
-        const std::array<std::uint32_t, 3> bits = {std::bit_cast<std::uint32_t>(p.x + 0.0f),
-                                                   std::bit_cast<std::uint32_t>(p.y + 0.0f),
-                                                   std::bit_cast<std::uint32_t>(p.z + 0.0f)};
-        const auto [at, is_new] = known_.try_emplace(bits, static_cast<std::int32_t>(faces.positions.size()));
-        if (is_new) faces.positions.push_back(to_double(p));
-        return at->second;
-    }
-
     const std::string& file_;
     const Limits& limits_;
-    std::unordered_map<std::array<std::uint32_t, 3>, std::int32_t, CornerHash> known_;
+    PointIndex known_;
 };
 
 std::uint32_t facets_of(std::string_view bytes) {

@@ -58,10 +58,12 @@ void add_texture(Builder& b, const Image<Pixel>& image, const std::string& shown
     b.scene.textures.push_back(make_texture(shown_name, image.view()));
 }
 
-/// Index of a texture, which is decoded when it is met for the first time.
-std::int32_t texture_index(Builder& b, const std::filesystem::path& file, const std::string& shown_name) {
+/// Index of a texture, which is decoded when it is met for the first time. `held`: the bytes of the file, or
+/// null where they are still to be read.
+std::int32_t texture_index(Builder& b, const std::filesystem::path& file, const std::string& shown_name,
+                           const std::string* held = nullptr) {
     if (const auto known = b.textures.find(file); known != b.textures.end()) return known->second;
-    const std::string bytes = read_file(file, largest_texture_file);
+    const std::string bytes = held != nullptr ? *held : read_file(file, largest_texture_file);
     ImageFileLimits limits;
     limits.max_side_px = b.limits.texture_px;
     // A pixel has 4 or 8 bytes in the file's image, and 16 as linear floats with their mip chain.
@@ -132,8 +134,11 @@ Part load_part(Builder& b, const SceneTable& table) {
         }
         for (Material& material : model.materials) {
             if (material.texture < 0) continue;
-            const std::string& file = model.texture_files.at(static_cast<std::size_t>(material.texture));
-            material.texture = texture_index(b, file, std::filesystem::path(file).filename().string());
+            const auto at = static_cast<std::size_t>(material.texture);
+            const std::string& file = model.texture_files.at(at);
+            material.texture =
+                texture_index(b, file, std::filesystem::path(file).filename().string(),
+                              model.texture_bytes.empty() ? nullptr : &model.texture_bytes.at(at));
         }
         return Part{std::move(model.mesh), std::move(model.materials), model.origin,
                     std::move(model.without_uv)};

@@ -35,7 +35,8 @@ const KeyRows<Placement>& placement_rows() {
 /// Of files alone.
 const KeyRows<MeshOptions>& file_rows() {
     static const KeyRows<MeshOptions> rows{
-        {file_key("file", "OBJ, PLY or STL file, relative to the scene file and inside its folder.").need()},
+        {file_key("file", "OBJ, glTF, PLY or STL file, relative to the scene file and inside its folder.")
+             .need()},
         key_row(&MeshOptions::crease_angle_deg,
                 number_key("crease_angle_deg",
                            "Where the file has neither normals nor smoothing groups: smooth across edges "
@@ -65,8 +66,9 @@ const TableSpec& mesh_table() {
     static const TableSpec spec = [] {
         TableSpec t{"[[mesh]]", "Triangles from a file, or a shape made here.", {}, "shape", {}};
         std::vector<std::string> names{"file"};
-        t.variants.push_back(
-            {"file", "A model: Wavefront OBJ with its MTL, PLY or STL.", keys_of(file_rows())});
+        t.variants.push_back({"file",
+                              "A model: Wavefront OBJ with its MTL, glTF 2.0 (.gltf, .glb), PLY or STL.",
+                              keys_of(file_rows())});
         for (const ShapeSpec& shape : shapes()) {
             names.push_back(shape.variant.name);
             t.variants.push_back(shape.variant);

@@ -6,8 +6,8 @@
 
 namespace obscura {
 
-/// Reads `bytes` as a PLY file and as an STL file. Ends quietly when they are read or refused with an
-/// InputError or LimitError; checks what a read model promises.
+/// Reads `bytes` as a PLY, an STL and a glTF file that names no others. Ends quietly when they are read or
+/// refused with an InputError or LimitError; checks what a read model promises.
 void try_model(std::span<const std::uint8_t> bytes);
 
 }  // namespace obscura

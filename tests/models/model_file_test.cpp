@@ -42,7 +42,7 @@ TEST_F(ModelFile, OtherKindsAreNamed) {
         load(write("a.FBX", "Kaydara"));
         FAIL();
     } catch (const InputError& error) {
-        EXPECT_EQ(error.message, ".fbx files are not read; OBJ, PLY and STL are");
+        EXPECT_EQ(error.message, ".fbx files are not read; OBJ, glTF, PLY and STL are");
     }
 }
 
