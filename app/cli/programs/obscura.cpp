@@ -12,6 +12,7 @@
 #include "app/cli/dump_command.h"
 #include "app/cli/info_command.h"
 #include "app/cli/messages.h"
+#include "app/cli/new_command.h"
 #include "app/cli/render_command.h"
 #include "app/cli/run_program.h"
 #include "app/cli/sibling_program.h"
@@ -33,6 +34,7 @@ struct Command {
 };
 
 constexpr Command commands[] = {
+    {"new", "Write a scene to begin with", run_new},
     {"render", "Render a scene file to pictures", run_render},
     {"check", "Validate a scene and say what rendering it would take", run_check},
     {"dump", "Print the effective scene, or the description of the format", run_dump},

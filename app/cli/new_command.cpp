@@ -1,0 +1,72 @@
+#include "app/cli/new_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "app/cli/flags.h"
+#include "app/cli/messages.h"
+#include "app/scene/schema.h"
+#include "core/error.h"
+
+namespace obscura {
+namespace {
+
+// The files of scenes/starters, as CMake has put them here.
+constexpr Starter all[] = {
+#include "starters.inc"
+};
+
+std::string names() {
+    std::string out;
+    for (const Starter& s : all)
+        out += fmt::format("{}{} ({})", out.empty() ? "" : ", ", s.name, s.summary);
+    return out;
+}
+
+}  // namespace
+
+std::span<const Starter> starters() {
+    return all;
+}
+
+int new_command(const NewOptions& options) {
+    const auto starter = std::find_if(std::begin(all), std::end(all),
+                                      [&](const Starter& s) { return s.name == options.kind; });
+    if (starter == std::end(all)) {
+        std::vector<std::string> kinds;
+        for (const Starter& s : all)
+            kinds.emplace_back(s.name);
+        throw UsageError(fmt::format("--kind '{}'{} is none of {}", options.kind, hint(options.kind, kinds),
+                                     fmt::join(kinds, ", ")));
+    }
+    std::filesystem::path file = options.file;
+    if (!file.has_extension()) file += ".toml";
+    write_file_atomically(file, starter->text, options.existing);
+    std::filesystem::path picture = file;
+    picture.replace_extension(".png");
+    say(fmt::format("written: {}\nrender it: obscura {} {} -o {}\n", file.string(),
+                    starter->stereo ? "stereo" : "render", file.string(), picture.string()));
+    return 0;
+}
+
+int run_new(const Arguments& arguments) {
+    Flags flags(
+        "new [options] FILE",
+        "Writes a commented scene to begin with, which needs no other files: change a number, render again.");
+    NewOptions options;
+    std::string file;
+    bool overwrite = false;
+    flags.positional("FILE", file, "The scene file to be written; .toml is added where it has no ending.");
+    flags.group("Scene");
+    flags.text("--kind", "NAME", options.kind, names() + ".", "place");
+    flags.group("Output");
+    flags.on_off("--overwrite", overwrite, "Replace FILE when it exists.");
+    if (!flags.parse(arguments)) return 0;
+    options.file = file;
+    options.existing = overwrite ? Existing::replace : Existing::refuse;
+    return new_command(options);
+}
+
+}  // namespace obscura
