@@ -71,7 +71,8 @@ check_files() {
 
 # Every relative link and every file that a page names is there, and every one that a comment names with its folder: beside the page or below it, or named
 # from the top. A file is a name with an ending of sources or pages; data and pictures only with their folder. Words in
-# capitals stand for something else (NAME.txt), and what a build or the reader makes is not looked for.
+# capitals stand for something else (NAME.txt), and what a build or the reader makes is not looked for. And links lead
+# from the front page to every page.
 check_links() {
     local pages place name
     sources | xargs -r grep -HnoE '// .*[a-z_]+/[a-z_]+\.(h|cpp)\b' |
@@ -104,8 +105,9 @@ check_links() {
             while (match(line, /\]\([^)]*\)/)) {
                 link = substr(line, RSTART + 2, RLENGTH - 3); line = substr(line, RSTART + RLENGTH)
                 sub(/#.*/, "", link)
-                if (link != "" && link !~ /^[a-z]+:/ && !(tidy(folder link) in present))
-                    print page ":" FNR ": the link " link " leads nowhere"
+                if (link == "" || link ~ /^[a-z]+:/) continue
+                if (tidy(folder link) in present) links[FILENAME] = links[FILENAME] "\n" tidy(folder link)
+                else print page ":" FNR ": the link " link " leads nowhere"
             }
             line = $0
             gsub(/\]\([^)]*\)/, "", line); gsub(/\/\.cpp/, "", line)
@@ -117,6 +119,17 @@ check_links() {
                 sub(/^\.\//, "", name)
                 if (!is_there(name, folder)) print page ":" FNR ": there is no " name
             }
+        }
+        END {
+            if (!("./README.md" in present)) exit
+            reached["./README.md"] = 1; queue[1] = "./README.md"
+            for (next_page = last = 1; next_page <= last; ++next_page) {
+                n = split(links[queue[next_page]], list, "\n")
+                for (i = 2; i <= n; ++i)
+                    if (!(list[i] in reached)) { reached[list[i]] = 1; queue[++last] = list[i] }
+            }
+            for (page in present)
+                if (page ~ /\.md$/ && !(page in reached)) print substr(page, 3) ": no link leads here from README.md"
         }' - "${pages[@]}"
 }
 
@@ -148,6 +161,7 @@ self_test() {
         mkdir -p "$work/tree/$(dirname "$2")"
         cp .clang-format "$work/tree" 2>/dev/null
         printf '%b' "$3" >"$work/tree/$2"
+        [ -z "${front_page-}" ] || printf '%b' "$front_page" >"$work/tree/README.md"
         run_check "$1" "$work/tree" >"$work/out" 2>/dev/null
         local status=$?
         [ "$status" -ne 77 ] || return 0
@@ -202,6 +216,11 @@ self_test() {
     plant links core/README.md './obscura render scenes/gone.toml\n' found
     plant links core/a.h '// As core/gone.h says.\n' found
     plant links core/a.h '// As core/a.h says, and a.h.\n' clean
+    local front_page='Read [core](core/README.md).\n'
+    plant links core/README.md 'Reached.\n' clean
+    front_page='No link.\n'
+    plant links core/README.md 'See [it](README.md).\n' found
+    front_page=
     plant format core/a.cpp 'int  f( ) ;\n' found
     plant format core/a.cpp 'int f();\n' clean
     rm -rf "$work"
