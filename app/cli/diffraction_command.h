@@ -24,7 +24,7 @@
 namespace obscura {
 
 /// A pattern before it is written: power for one wavelength, else colours; amplitudes when asked for.
-struct Pattern {
+struct DiffractionPattern {
     Image<float> power;
     Image<Vec3f> colour;
     Field amplitude;
