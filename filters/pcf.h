@@ -50,12 +50,11 @@ struct PcfView {
 /// What is certain of a receiver's depth. A map may store the very depth of the receiver's own plane (where
 /// two solids touch, one interval ends where the other begins), so that depth is taken nearer to the light by
 /// all that rounding may have moved it, and no more:
-///  - the receiver's position is a float, relative to the eye: at most pcf_position_error (8 half units in
-///  the last
-///    place) times |x| + |y| + |z| off its plane, which the angle to the light stretches by 1 / (n . l);
-///  - vertices snap to 1/256 texel, so a texel's centre may see a facet that ends so far from it: pcf_snap
-///  times
-///    |dZ/dX| + |dZ/dY|; that also covers the rounding of the plane's rise over a kernel;
+///  - the receiver's position is a float, relative to the eye: at most pcf_position_error (8 half units
+///    in the last place) times |x| + |y| + |z| off its plane, which the angle to the light stretches by
+///    1 / (n . l);
+///  - vertices snap to 1/256 texel, so a texel's centre may see a facet that ends so far from it:
+///    pcf_snap times |dZ/dX| + |dZ/dY|; that also covers the rounding of the plane's rise over a kernel;
 ///  - depths are floats in [0, 1], stored and computed: pcf_depth_error (four units in the last place).
 constexpr float pcf_position_error = 0x1p-21f, pcf_snap = 1.0f / 256.0f, pcf_depth_error = 0x1p-22f;
 

@@ -51,8 +51,8 @@ struct PcfSteps {
 
 /// Everything about the lookup of sample `at`.
 struct PcfTrace {
-    bool looked_up =
-        false;  ///< false: nothing there, faces away (visibility 0), or before the near plane (1)
+    /// False: nothing there, faces away (visibility 0), or before the near plane (1).
+    bool looked_up = false;
     int view = 0;
     double X = 0, Y = 0;       ///< texels
     float depth = 0;           ///< of the receiver

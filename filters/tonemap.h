@@ -17,8 +17,8 @@ struct ToneParams {
 
 /// The curve itself, x >= 0 to display light in [0, 1], rising:
 ///  - linear: min(x, 1);
-///  - filmic: K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: x (2.51 x + 0.03) / (x (2.43 x + 0.59) +
-///  0.14),
+///  - filmic: K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015:
+///    x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14),
 ///    at most 1. Applied per channel, as film does: very bright saturated colours turn towards white, and
 ///    their hue towards the nearest primary or secondary.
 double tone_curve(ToneCurve curve, double x);

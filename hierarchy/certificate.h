@@ -87,8 +87,8 @@ class Judge {
     Receivers receivers_;
     std::size_t longest_surface_;
     std::vector<std::uint32_t> slot_;  ///< facet -> its place in the list, if that place holds it
-    UnionFind
-        surfaces_;  ///< of places in the list: facets that hang together; parents are roots once gathered
+    /// Of places in the list: facets that hang together; parents are roots once gathered.
+    UnionFind surfaces_;
     std::vector<Group> groups_;             ///< per place that is a root
     std::vector<Layer> layers_;             ///< by least depth
     std::vector<float> uncertain_entries_;  ///< least depths of front faces that are no layer

@@ -35,8 +35,8 @@ struct EncodeParams {
     TreeLayout layout = TreeLayout::words24;  ///< mh: what to try first
     int top_levels = 0;   ///< levels in the dense top grid, in [0, min(levels, max_top_levels)]; 0: no grid
     int offset_bits = 0;  ///< fewer bits for offsets, for tests, at least min_offset_bits; 0: the layout's
-    double bearable_padding =
-        1.0 / 8;  ///< mh: of the nodes' own bytes: beyond it the next wider layout is taken
+    /// mh: of the nodes' own bytes: beyond it the next wider layout is taken.
+    double bearable_padding = 1.0 / 8;
     std::uint64_t max_units = std::uint64_t{1} << 31;  ///< of the result; less for tests
     ShadowCode code = ShadowCode::mh;
     MergeParams merge = {};

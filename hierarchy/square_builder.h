@@ -95,8 +95,8 @@ class SquareBuilder {
     const BuildParams& params_;
     Isa isa_;
     NodeBudget& budget_;
-    bool certain_ =
-        false;  ///< of the square decided last: its common depths are certain, its detail is wanted
+    /// Of the square decided last: its common depths are certain, its detail is wanted.
+    bool certain_ = false;
     std::size_t accounted_ = 0;  ///< of the tree's nodes, those that the budget knows
     const std::atomic<bool>* cancel_;
     Judge judge_;

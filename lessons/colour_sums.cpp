@@ -15,7 +15,7 @@ Image<Vec3f> colour_of(const Aperture& aperture, const FrequencyGrid& grid, int 
 }
 
 Image<Vec3f> looked_up_colour(const Aperture& aperture, const FrequencyGrid& grid, int wavelengths,
-                              double step, Interpolation interpolation, const Exec& exec) {
+                              double step, PowerInterpolation interpolation, const Exec& exec) {
     const std::vector<SpectralSample> samples = spectral_samples({}, wavelengths);
     const auto scale_of = [](const SpectralSample& s) { return colour_reference_nm / s.wavelength_nm; };
     double least = 1, most = 1, luminance = 0;

@@ -16,7 +16,7 @@ Image<Vec3f> colour_of(const Aperture& aperture, const FrequencyGrid& grid, int 
 
 /// The same by lookups in one power image with frequencies `step` apart (equation 3.16).
 Image<Vec3f> looked_up_colour(const Aperture& aperture, const FrequencyGrid& grid, int wavelengths,
-                              double step, Interpolation interpolation, const Exec& exec);
+                              double step, PowerInterpolation interpolation, const Exec& exec);
 
 /// Mean over the pixels with least <= radius < most (cycles per texel) of the sum of |a - b| over X, Y and Z,
 /// relative to that of b.

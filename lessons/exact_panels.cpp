@@ -26,18 +26,18 @@ GridOnMap grid_on_map(const ExactView& grid, const LightView& map) {
 }
 
 /// Corner k of a triangle of the view, in texels.
-Vec2d corner(const ExactPicture& picture, std::size_t triangle, int k) {
+Vec2d corner(const SampledPicture& picture, std::size_t triangle, int k) {
     const CasterTriangle& t = picture.view.triangles[triangle];
     return picture.on_map.at(t.x[k], t.y[k]);
 }
 
-bool darkens(const ExactPicture& picture, std::size_t triangle, std::uint32_t sample) {
+bool darkens(const SampledPicture& picture, std::size_t triangle, std::uint32_t sample) {
     const auto at = static_cast<int>(picture.samples.point[sample]);
     return ref::exact_darkens(picture.points, picture.light, at, triangle);
 }
 
 /// As kernels have it.
-Vec3f seen_from_eye(const ExactPicture& picture, std::uint32_t sample) {
+Vec3f seen_from_eye(const SampledPicture& picture, std::uint32_t sample) {
     const std::uint32_t i = picture.samples.point[sample];
     const double(&eye)[3] = picture.light.eye;
     return to_float(
@@ -53,27 +53,27 @@ struct Extent {
     }
     double side() const { return std::max(high.x - low.x, high.y - low.y); }
 };
-Extent extent_of(const ExactPicture& picture, std::size_t triangle) {
+Extent extent_of(const SampledPicture& picture, std::size_t triangle) {
     Extent e;
     for (int k = 0; k < 3; ++k)
         e.add(corner(picture, triangle, k));
     return e;
 }
-Extent extent_of(const ExactPicture& picture, std::span<const std::uint32_t> bunch) {
+Extent extent_of(const SampledPicture& picture, std::span<const std::uint32_t> bunch) {
     Extent e;
     for (const std::uint32_t i : bunch)
         e.add(picture.place(i));
     return e;
 }
 
-void draw_triangle(Figure& f, const ExactPicture& picture, const MapWindow& window, std::size_t t,
+void draw_triangle(Figure& f, const SampledPicture& picture, const MapWindow& window, std::size_t t,
                    const Pen& pen) {
     const auto at = [&](int k) { return window.at(corner(picture, t, k)); };
     f.polygon({at(0), at(1), at(2)}, pen.color, 0.07);
     f.polyline({at(0), at(1), at(2), at(0)}, pen);
 }
 
-void draw_bunches(Figure& f, const ExactPicture& picture, const MapWindow& window) {
+void draw_bunches(Figure& f, const SampledPicture& picture, const MapWindow& window) {
     for (std::size_t b = 0; b < picture.bunches(); ++b) {
         std::vector<Vec2d> way;
         bool seen = false;
@@ -89,7 +89,7 @@ void draw_bunches(Figure& f, const ExactPicture& picture, const MapWindow& windo
     }
 }
 
-void draw_casters(Figure& f, const ExactPicture& picture, const MapWindow& window) {
+void draw_casters(Figure& f, const SampledPicture& picture, const MapWindow& window) {
     const auto count = static_cast<std::size_t>(picture.view.count);
     std::vector<Box> frames;
     for (std::size_t g = 0; 16 * g < count; ++g) {
@@ -115,12 +115,13 @@ bool MapWindow::holds(Vec2d texel, double margin_px) const {
            p.y <= box.y + box.h - margin_px;
 }
 
-ExactPicture exact_picture(const ExactLight& light, const ExactPoints& points, const ExactWork& work,
-                           const std::vector<std::uint32_t>& lit, const LightView& map) {
+SampledPicture exact_picture(const ExactLight& light, const ExactPoints& points, const ExactWork& work,
+                             const std::vector<std::uint32_t>& lit, const LightView& map) {
     return {light, light.view[0], points, work.samples(), work.order(), lit, grid_on_map(light.view[0], map)};
 }
 
-void draw_samples(Figure& f, const ExactPicture& picture, const MapWindow& window, double dot_px, bool grid) {
+void draw_samples(Figure& f, const SampledPicture& picture, const MapWindow& window, double dot_px,
+                  bool grid) {
     f.fill(window.box, ink::panel);
     if (grid) {
         const Cells cells{{window.box.x, window.box.y},
@@ -147,7 +148,7 @@ void draw_samples(Figure& f, const ExactPicture& picture, const MapWindow& windo
     f.frame(window.box, {ink::soft, 1});
 }
 
-void draw_sixteens(Figure& f, const ExactPicture& picture, const MapWindow& window) {
+void draw_sixteens(Figure& f, const SampledPicture& picture, const MapWindow& window) {
     // A figure of its own ends at the panel's border.
     Figure panel(static_cast<int>(window.box.w), static_cast<int>(window.box.h));
     MapWindow within = window;
@@ -158,26 +159,26 @@ void draw_sixteens(Figure& f, const ExactPicture& picture, const MapWindow& wind
     draw_picture(f, {window.box.x, window.box.y}, panel.picture);
 }
 
-Image<int> samples_per_texel(const ExactPicture& picture, int texels) {
+Image<int> samples_per_texel(const SampledPicture& picture, int texels) {
     Image<int> count(texels, texels);
     for (const std::uint32_t i : picture.order)
         ++count(static_cast<int>(picture.place(i).x), static_cast<int>(picture.place(i).y));
     return count;
 }
 
-bool inside_edge(const CasterTriangle& t, int k, const ExactPicture& picture, std::uint32_t sample) {
+bool inside_edge(const CasterTriangle& t, int k, const SampledPicture& picture, std::uint32_t sample) {
     TriangleRecord r{};
     std::copy_n(t.x, 3, r.x);
     std::copy_n(t.y, 3, r.y);
     return edge_function(r, k).at(picture.samples.x[sample], picture.samples.y[sample]) >= 0;
 }
 
-bool covered_by(const CasterTriangle& t, const ExactPicture& picture, std::uint32_t sample) {
+bool covered_by(const CasterTriangle& t, const SampledPicture& picture, std::uint32_t sample) {
     return inside_edge(t, 0, picture, sample) && inside_edge(t, 1, picture, sample) &&
            inside_edge(t, 2, picture, sample);
 }
 
-TellingPair telling_pair(const ExactPicture& picture) {
+TellingPair telling_pair(const SampledPicture& picture) {
     TellingPair best;
     double most = -1e9;
     for (std::size_t b = 0; b < picture.bunches(); ++b) {
@@ -201,7 +202,7 @@ TellingPair telling_pair(const ExactPicture& picture) {
     return best;
 }
 
-void draw_pair(Figure& f, const ExactPicture& picture, const TellingPair& pair, const Box& box) {
+void draw_pair(Figure& f, const SampledPicture& picture, const TellingPair& pair, const Box& box) {
     const CasterTriangle& t = picture.view.triangles[pair.triangle];
     Extent both = extent_of(picture, pair.triangle);
     for (const std::uint32_t i : picture.bunch(pair.bunch))
@@ -240,13 +241,13 @@ void draw_pair(Figure& f, const ExactPicture& picture, const TellingPair& pair, 
     f.frame(window.box, {ink::soft, 1});
 }
 
-double height_over(const CasterTriangle& t, const ExactPicture& picture, std::uint32_t sample) {
+double height_over(const CasterTriangle& t, const SampledPicture& picture, std::uint32_t sample) {
     const std::uint32_t i = picture.samples.point[sample];
     const Vec3d p{picture.points.px[i], picture.points.py[i], picture.points.pz[i]};
     return dot(Vec3d{t.n[0], t.n[1], t.n[2]}, p) + t.d;
 }
 
-PlaneDistances plane_distances(const ExactPicture& picture) {
+PlaneDistances plane_distances(const SampledPicture& picture) {
     PlaneDistances d;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(picture.samples.count); ++i) {
         const Vec3f p = seen_from_eye(picture, i);
@@ -273,7 +274,7 @@ void draw_distances(Figure& f, const PlaneDistances& d, const Box& box) {
     const Plot plot{box, -8, 1, -most, most};
     const auto at_size = [&](double metres) { return plot.at(decades_of(metres), 0).x; };
     f.fill(box, ink::panel);
-    const auto band = [&](const Range& r, Rgb8 color) {
+    const auto band = [&](const ErrorRange& r, Rgb8 color) {
         f.fill({at_size(r.low), box.y, at_size(r.high) - at_size(r.low), box.h}, color);
     };
     band(d.rounding, rounding_color);

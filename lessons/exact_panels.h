@@ -32,7 +32,7 @@ struct GridOnMap {
 };
 
 /// What exact shadows of one picture were, ready to be drawn and asked.
-struct ExactPicture {
+struct SampledPicture {
     const ExactLight& light;
     const ExactView& view;
     const ExactPoints points;
@@ -51,37 +51,38 @@ struct ExactPicture {
 };
 
 /// Of the last call of `work`; `map` is a view of the same light. All must outlive it.
-ExactPicture exact_picture(const ExactLight& light, const ExactPoints& points, const ExactWork& work,
-                           const std::vector<std::uint32_t>& lit, const LightView& map);
+SampledPicture exact_picture(const ExactLight& light, const ExactPoints& points, const ExactWork& work,
+                             const std::vector<std::uint32_t>& lit, const LightView& map);
 
 constexpr Rgb8 lit_color = ink::orange, dark_color = ink::blue;
 constexpr Rgb8 rounding_color = ink::purple, snapping_color = ink::yellow;
 
 /// Samples as dots, lit or dark. With `grid`: the texels between them, and the place where each is sampled.
-void draw_samples(Figure& f, const ExactPicture& picture, const MapWindow& window, double dot_px, bool grid);
+void draw_samples(Figure& f, const SampledPicture& picture, const MapWindow& window, double dot_px,
+                  bool grid);
 
 /// Bunches of sixteen samples, each in one colour and joined in their order; over them triangles, and the
 /// boxes of sixteen of them that are smaller than the window and reach into it.
-void draw_sixteens(Figure& f, const ExactPicture& picture, const MapWindow& window);
+void draw_sixteens(Figure& f, const SampledPicture& picture, const MapWindow& window);
 
 /// How many samples fall into each of a map's texels.
-Image<int> samples_per_texel(const ExactPicture& picture, int texels);
+Image<int> samples_per_texel(const SampledPicture& picture, int texels);
 
 /// Whether the sample is inside edge k, inside all; and its height over the plane, metres, below 0 behind it.
-bool inside_edge(const CasterTriangle& t, int k, const ExactPicture& picture, std::uint32_t sample);
-bool covered_by(const CasterTriangle& t, const ExactPicture& picture, std::uint32_t sample);
-double height_over(const CasterTriangle& t, const ExactPicture& picture, std::uint32_t sample);
+bool inside_edge(const CasterTriangle& t, int k, const SampledPicture& picture, std::uint32_t sample);
+bool covered_by(const CasterTriangle& t, const SampledPicture& picture, std::uint32_t sample);
+double height_over(const CasterTriangle& t, const SampledPicture& picture, std::uint32_t sample);
 
 /// A triangle and a bunch that lies on both sides of each of its edges, and not far beyond them.
 struct TellingPair {
     std::size_t triangle = 0, bunch = 0;
     int covered = 0;  ///< of the sixteen
 };
-TellingPair telling_pair(const ExactPicture& picture);
-void draw_pair(Figure& f, const ExactPicture& picture, const TellingPair& pair, const Box& box);
+TellingPair telling_pair(const SampledPicture& picture);
+void draw_pair(Figure& f, const SampledPicture& picture, const TellingPair& pair, const Box& box);
 
 /// From least to most.
-struct Range {
+struct ErrorRange {
     double low = 1e9, high = 0;
     void add(double v) {
         low = v < low ? v : low;
@@ -93,12 +94,12 @@ struct Range {
 struct PlaneDistances {
     static constexpr int decades = 9, bins = 2 * decades;  ///< two to a power of ten, from 1e-8 m on
     int before[bins] = {}, same[bins] = {},
-        behind[bins] = {};      ///< same: behind, but by too little to be dark
-    Range rounding, snapping;   ///< of samples: what one depth may mean, and 1/256 pixel
-    double nearest_dark = 1e9;  ///< least distance behind a plane of those that it darkens
-    double farthest_same = 0;   ///< most distance behind a plane of those that are too near to be dark
+        behind[bins] = {};          ///< same: behind, but by too little to be dark
+    ErrorRange rounding, snapping;  ///< of samples: what one depth may mean, and 1/256 pixel
+    double nearest_dark = 1e9;      ///< least distance behind a plane of those that it darkens
+    double farthest_same = 0;       ///< most distance behind a plane of those that are too near to be dark
 };
-PlaneDistances plane_distances(const ExactPicture& picture);
+PlaneDistances plane_distances(const SampledPicture& picture);
 void draw_distances(Figure& f, const PlaneDistances& distances, const Box& box);
 
 }  // namespace obscura

@@ -92,13 +92,13 @@ void draw_lookup_errors(Figure& f, const Aperture& aperture, const Box& box, con
     const FrequencyGrid grid = grid_of(64);
     const Image<Vec3f> exact = colour_of(aperture, grid, 60, exec);
     double y = box.y;
-    for (const Interpolation interpolation : {Interpolation::linear, Interpolation::cubic}) {
+    for (const PowerInterpolation interpolation : {PowerInterpolation::linear, PowerInterpolation::cubic}) {
         for (const int finer : {1, 2, 4}) {
             const Image<Vec3f> sum =
                 looked_up_colour(aperture, grid, 60, 1.0 / (finer * mask_texels), interpolation, exec);
             const double error = 100 * colour_error(sum, exact, grid, 0, reach);
             f.text({box.x + 112, y + 13},
-                   fmt::format("{}, {}", interpolation == Interpolation::linear ? "linear" : "cubic",
+                   fmt::format("{}, {}", interpolation == PowerInterpolation::linear ? "linear" : "cubic",
                                finer == 1 ? "1/W" : fmt::format("1/{}W", finer)),
                    lettering::right);
             f.fill({box.x + 124, y, error * 5, 16}, finer == 1 ? ink::red : ink::sky);

@@ -86,7 +86,7 @@ void draw_wrong(Figure& f, Vec2d at, std::vector<Way> ways, const Visibility& ex
 }
 
 // Step 3: where on the light's grid the camera asks, and where a map samples.
-void draw_grid(Figure& f, const ExactPicture& picture) {
+void draw_grid(Figure& f, const SampledPicture& picture) {
     f.text({460, 142}, "1  Where the camera asks", lettering::head);
     const MapWindow all{{460, 158, 400, 400}, 0, 0, map_texels};
     draw_samples(f, picture, all, 1.3, false);
@@ -109,14 +109,14 @@ void draw_grid(Figure& f, const ExactPicture& picture) {
 }
 
 // Step 4: casters, sixteen to a box, and samples, sixteen to a bunch.
-void draw_order(Figure& f, const ExactPicture& picture) {
+void draw_order(Figure& f, const SampledPicture& picture) {
     f.text({1120, 142}, "2  Sixteen and sixteen", lettering::head);
     draw_sixteens(f, picture, {{1120, 158, 440, 400}, 124, 84, 20});
     f.text({1120, 577}, "boxes of 16 triangles; bunches of 16 samples, a colour each");
 }
 
 // Step 5: one triangle against one bunch; and all samples against the planes of what covers them.
-void draw_tests(Figure& f, const ExactPicture& picture) {
+void draw_tests(Figure& f, const SampledPicture& picture) {
     f.text({40, 614}, "3  Inside three edges ...", lettering::head);
     draw_pair(f, picture, telling_pair(picture), {40, 630, 270, 270});
     f.legend({40, 924}, {{Mark::dot, dark_color, "behind"},
@@ -179,7 +179,7 @@ Image<Rgb8> lesson_19_exact_shadows(const Exec& exec) {
     const Visibility exact = of_bits(lit), truth = by_rays(scene, seen, exec);
     check_exact(seen, light, exact, truth);
 
-    const ExactPicture picture = exact_picture(light, seen.points(), work, lit, map.views[0]);
+    const SampledPicture picture = exact_picture(light, seen.points(), work, lit, map.views[0]);
     const std::vector<Way> ways = ways_of_map(scene, seen, map, exec);
     f.text({40, 142}, fmt::format("{} samples face the sun", picture.order.size()), lettering::head);
     draw_picture(f, {40, 158}, lit_pixels(scene, seen, exact, {0, 0, exact_width, exact_height}).picture, 2);

@@ -83,11 +83,11 @@ Image<Vec3f> far_field_colour(const Aperture& aperture, const FrequencyGrid& gri
 /// What that would do; throws as it does.
 struct ColourPlan {
     int wavelengths = 0;
-    FarFieldReport
-        pattern;         ///< plan of the wavelength in the middle, or of the one pattern that is looked up
+    /// Plan of the wavelength in the middle, or of the one pattern that is looked up.
+    FarFieldReport pattern;
     double cost_ms = 0;  ///< exact: of all, as if they were all like that, estimate for one thread; else 0
-    std::int64_t looked_up =
-        0;  ///< frequencies of that one pattern, held while it is, with its scaled copies
+    /// Frequencies of that one pattern, held while it is, with its scaled copies.
+    std::int64_t looked_up = 0;
 };
 ColourPlan plan_far_field_colour(const Aperture& aperture, const FrequencyGrid& grid, double reference_nm,
                                  const PsfParams& params);

@@ -79,8 +79,8 @@ struct WeightFade {
 
 struct StereoEdit {
     std::string name;  ///< "[[stereo.edit]] id"
-    double weight =
-        1;  ///< >= 0, fades and keyframes included; 0: no edit. Roundness, interface: its share, to 1
+    /// >= 0, fades and keyframes included; 0: no edit. Roundness, interface: its share, to 1.
+    double weight = 1;
     std::variant<RoundnessEdit, AnchorEdit, InterfaceEdit, MatchEdit> what;
 };
 

@@ -232,8 +232,7 @@ std::string check_report(const CheckOptions& options) {
         if (stack_pays(document, scene.lights[i], scene)) {
             out += fmt::format(
                 "note      light '{}': its points have casters of their own, put in order for every one of "
-                "{} "
-                "frames; method = \"stack\" makes a map of each once, for pictures that are nearly the "
+                "{} frames; method = \"stack\" makes a map of each once, for pictures that are nearly the "
                 "same\n",
                 scene.lights[i].light.id, scene_frames(document).count());
         }

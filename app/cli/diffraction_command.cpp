@@ -231,8 +231,8 @@ Image<float> power_of(const Field& field) {
 
 using Hear = std::function<void(double)>;
 
-Pattern far_pattern(const DiffractionOptions& options, Job& job, const Hear& progress) {
-    Pattern pattern;
+DiffractionPattern far_pattern(const DiffractionOptions& options, Job& job, const Hear& progress) {
+    DiffractionPattern pattern;
     const double unit = 1 / job.open;
     if (options.amplitude) {
         pattern.amplitude = far_field(job.aperture, job.far_grid, options.far, options.exec, &job.far_plan);
@@ -250,8 +250,8 @@ Pattern far_pattern(const DiffractionOptions& options, Job& job, const Hear& pro
     return pattern;
 }
 
-Pattern near_pattern(const DiffractionOptions& options, Job& job, const Hear& progress) {
-    Pattern pattern;
+DiffractionPattern near_pattern(const DiffractionOptions& options, Job& job, const Hear& progress) {
+    DiffractionPattern pattern;
     if (options.amplitude) {
         pattern.amplitude = near_field(job.aperture, job.plane, job.near, options.exec, &job.near_plan);
         pattern.power = power_of(pattern.amplitude);
@@ -267,14 +267,14 @@ Pattern near_pattern(const DiffractionOptions& options, Job& job, const Hear& pr
 }
 
 /// Tells how far colours are that take long enough to ask.
-Pattern pattern_with_progress(const DiffractionOptions& options, Job& job) {
+DiffractionPattern pattern_with_progress(const DiffractionOptions& options, Job& job) {
     constexpr double worth_telling_ms = 2000;
     Progress meter(stderr, Progress::style_for(
                                stderr, job.wavelengths == 1 ||
                                            job.total_ms < worth_telling_ms * thread_count(options.exec)));
     meter.begin(fmt::format("{} wavelengths", job.wavelengths), 0, 1);
     const Hear progress = [&](double share) { meter.update(share); };
-    Pattern pattern =
+    DiffractionPattern pattern =
         options.near_m ? near_pattern(options, job, progress) : far_pattern(options, job, progress);
     meter.finish();
     return pattern;
@@ -306,7 +306,7 @@ void tell(const DiffractionOptions& options, const std::string& text) {
     is_standard_output(options.stats_json) ? say(text) : print(text);
 }
 
-void write_pattern(const DiffractionOptions& options, const Pattern& pattern) {
+void write_pattern(const DiffractionOptions& options, const DiffractionPattern& pattern) {
     const bool grey = pattern.colour.pixels.empty();
     for (const std::string& file : options.outputs) {
         std::string bytes;
@@ -372,7 +372,7 @@ int diffraction_command(const DiffractionOptions& options) {
         say_note("so far away the pattern is all but the far field's; see --far");
     if (options.plan_only) return 0;
     const Stopwatch watch;
-    const Pattern pattern = pattern_with_progress(options, job);
+    const DiffractionPattern pattern = pattern_with_progress(options, job);
     const double seconds = watch.seconds();
     write_pattern(options, pattern);
     write_stats(options.stats_json, stats_text(options, job, seconds), options.existing);

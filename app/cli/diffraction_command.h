@@ -24,7 +24,7 @@
 namespace obscura {
 
 /// A pattern before it is written: power for one wavelength, else colours; amplitudes when asked for.
-struct Pattern {
+struct DiffractionPattern {
     Image<float> power;
     Image<Vec3f> colour;
     Field amplitude;
@@ -35,8 +35,8 @@ struct DiffractionOptions {
     std::filesystem::path mask_file;  ///< empty: the shape
     ApertureShape shape;
     int mask_px = 1024;  ///< side of a shape's mask
-    std::optional<double>
-        diameter_m;                 ///< of a shape, which takes 0.9 of its mask; of what a file leaves open
+    /// Of a shape, which takes 0.9 of its mask; of what a file leaves open.
+    std::optional<double> diameter_m;
     std::optional<double> pitch_m;  ///< of a texel; neither: 5 mm
     LensDirt dirt;
     int finest_level = 0;  ///< masks are reduced by 2^level first, to 0 and 1

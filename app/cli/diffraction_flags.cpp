@@ -189,8 +189,7 @@ void add_pattern_flags(Flags& flags, Texts& t, DiffractionOptions& options) {
     flags.on_off("--far", t.far, "Far field (Fraunhofer), which is the default.");
     flags.text("--near", "MM", t.near,
                "Near field (Fresnel) at this distance, millimetres. The Fresnel number that is told is a^2 / "
-               "(wavelength x "
-               "distance), a half the longer side of what is open: the radius of a round hole.",
+               "(wavelength x distance), a half the longer side of what is open: the radius of a round hole.",
                "off");
     flags.text("--wavelength-nm", "NM", t.wavelength, "Light of one wavelength, nanometres.", "550");
     flags.text("--spectrum", "LIGHT", t.spectrum,

@@ -92,8 +92,8 @@ struct Frame {
                           ///< count 0; 1 where nothing is, or without such lights
     /// Hours that the sun reaches the samples on surfaces, their mean; NaN where nothing is.
     Image<float> sun_hours;
-    Vec3d
-        lens_offset_m;  ///< where the picture's lens is, from the camera's eye: that of the eye that sees it
+    /// Where the picture's lens is, from the camera's eye: that of the eye that sees it.
+    Vec3d lens_offset_m;
     bool complete = false;  ///< false: cancelled
     FrameStats stats;
 };

@@ -18,8 +18,8 @@ struct FacesMesh {
     TopologyReport topology;
     std::vector<bool> without_uv;  ///< triangle by triangle, whether a corner has no texture coordinates;
                                    ///< empty: none lacks one
-    std::size_t merged =
-        0;  ///< triangles whose corners differ in the file, but not as floats about the origin
+    /// Triangles whose corners differ in the file, but not as floats about the origin.
+    std::size_t merged = 0;
 };
 
 /// Where floats count from, so that they are fine enough for a mesh: 0 along axes whose numbers lie near 0 or

@@ -26,10 +26,10 @@ struct Model {
 
 struct ModelOptions {
     double crease_angle_deg = 40.0;  ///< where the file has neither normals nor smoothing groups
-    bool allow_missing =
-        false;              ///< missing mtllib, material or texture: plain grey and a word in Model::missing
-    bool textures = true;   ///< false: textures may be missing, as with allow_missing
-    bool materials = true;  ///< false: none are read, all triangles have material 0
+    /// Missing mtllib, material or texture: plain grey and a word in Model::missing.
+    bool allow_missing = false;
+    bool textures = true;               ///< false: textures may be missing, as with allow_missing
+    bool materials = true;              ///< false: none are read, all triangles have material 0
     std::vector<std::string> replaced;  ///< materials whose look is not wanted: nothing of theirs is opened
 };
 

@@ -17,8 +17,8 @@ struct MtlEntry {
     std::string file;      ///< that the block stands in
     int texture_line = 0;  ///< of map_Kd, for messages
     std::vector<std::string> unread;  ///< keywords that would be seen and are not obeyed, each once
-    std::vector<std::string>
-        changed;               ///< of what is obeyed, what the Material does without, as phrases, each once
+    /// Of what is obeyed, what the Material does without, as phrases, each once.
+    std::vector<std::string> changed;
     bool transparent = false;  ///< by d, Tr, Tf, map_d or illum; drawn opaque all the same
 };
 

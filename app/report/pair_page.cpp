@@ -163,8 +163,7 @@ std::string solver_section(const StereoReportInput& in) {
     const std::string chart = convergence_svg(r, in.settings.solver);
     const std::string text = fmt::format(
         "{} at 1:{}: {} iterations{}, {}. Estimated error {:.3g} px at most, {:.3g} px rms; residual {:.2g} "
-        "of "
-        "that of the start.",
+        "of that of the start.",
         solver_name(in.frame.solver), in.frame.map_scale, r.iterations,
         in.frame.warm ? ", begun at the last frame's map" : "",
         r.converged ? "converged" : "<b class=\"bad\">not converged</b>", r.error_max_px, r.error_rms_px,
@@ -231,8 +230,7 @@ std::string realised_section(const StereoReportInput& in) {
     const ReprojectStats& r = in.frame.reprojection;
     const std::string text = fmt::format(
         "{} triangles became {} in {} rounds; {} vertices are seen, {} hidden. As cut, {:.3f} % of the "
-        "pixels "
-        "follow the map within {:.3g} px. Holes: {}.",
+        "pixels follow the map within {:.3g} px. Holes: {}.",
         r.triangles_in, r.triangles_out, r.rounds, r.vertices_seen, r.vertices_hidden, 100 * r.within,
         in.settings.reproject.tolerance_px, in.frame.cracks);
     const std::string rows =

@@ -33,8 +33,8 @@ std::uint16_t code16(double v, std::uint16_t top) {
     return static_cast<std::uint16_t>(std::floor(std::clamp(v, 0.0, 1.0) * top + 0.5));
 }
 
-std::optional<DepthRange> range_of(const Image<float>& depth) {
-    DepthRange range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+std::optional<PictureDepths> range_of(const Image<float>& depth) {
+    PictureDepths range{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
     for (const float d : depth.pixels) {
         if (!std::isfinite(d)) continue;
         range.nearest_m = std::min(range.nearest_m, d);
@@ -45,7 +45,7 @@ std::optional<DepthRange> range_of(const Image<float>& depth) {
 }
 
 PictureFile depth_png(const Image<float>& depth) {
-    const std::optional<DepthRange> range = range_of(depth);
+    const std::optional<PictureDepths> range = range_of(depth);
     const double low = range ? range->nearest_m : 0.0;
     const double span = range ? double{range->farthest_m} - low : 0.0;
     const auto code = [=](float d) {

@@ -17,13 +17,13 @@ namespace obscura {
 constexpr std::uint16_t farthest_code = 65534;
 
 /// Depths that a mapped PNG spans, metres.
-struct DepthRange {
+struct PictureDepths {
     float nearest_m = 0, farthest_m = 0;
 };
 
 struct PictureFile {
     std::string bytes;
-    std::optional<DepthRange> depth;  ///< of a depth PNG that shows any surface
+    std::optional<PictureDepths> depth;  ///< of a depth PNG that shows any surface
 };
 
 /// The frame must hold the channel.

@@ -110,8 +110,7 @@ void PixelStory::tell_material(int at) {
         const Texture& texture = scene_.textures[static_cast<std::size_t>(m.texture)];
         const UvFootprint footprint{{s.ux[at], s.vx[at]}, {s.uy[at], s.vy[at]}};
         say("    texture \"{}\": uv ({:.6g}, {:.6g}), per pixel right ({:.4g}, {:.4g}) and down ({:.4g}, "
-            "{:.4g}), "
-            "level {:.4f} of 0..{}, texel {}",
+            "{:.4g}), level {:.4f} of 0..{}, texel {}",
             texture.name, s.u[at], s.v[at], s.ux[at], s.vx[at], s.uy[at], s.vy[at],
             mip_level(texture, footprint), texture.levels.size() - 1,
             text_of(Vec3f{s.texel_r[at], s.texel_g[at], s.texel_b[at]}));

@@ -18,7 +18,7 @@ struct WrittenFile {
     std::string file;
     Aov aov = Aov::beauty;
     std::int64_t bytes = 0;
-    std::optional<DepthRange> depth;
+    std::optional<PictureDepths> depth;
 };
 
 struct FrameReport {

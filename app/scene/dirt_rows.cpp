@@ -62,8 +62,7 @@ const std::vector<DirtRow>& dirt_rows() {
             "A circle moved over the opening: housing (light passes inside only) or disc (outside only).",
             choice_key("occluder", names_of(occluder_words),
                        "A circle moved over the opening: light passes inside it only (housing: the lens's "
-                       "barrel seen "
-                       "from the side, a cat's eye) or outside it only (disc).")),
+                       "barrel seen from the side, a cat's eye) or outside it only (disc).")),
         dirt_row(&LensDirt::occluder_diameter, "SHARE", "Its diameter.",
                  number_key("occluder_diameter", "Share of the lens.").in({0, 4, true}).animate()),
         dirt_row(&LensDirt::occluder_x, "SHARE", "Right of the mask's middle.",

@@ -272,10 +272,8 @@ ShapeSpec city_shape() {
     shape.variant = {
         "city",
         "A town of closed buildings with streets, squares and trees. Slots: asphalt, kerb, sidewalk, lawn, "
-        "setts, "
-        "facade_sand, facade_brick, facade_rose, facade_white, facade_grey, facade_ochre, trim, pane, "
-        "pane_lit, "
-        "roof_tile, roof_slate, roof_flat, metal, wood, bark, leaf.",
+        "setts, facade_sand, facade_brick, facade_rose, facade_white, facade_grey, facade_ochre, trim, pane, "
+        "pane_lit, roof_tile, roof_slate, roof_flat, metal, wood, bark, leaf.",
         {integer_key("triangles", "Wanted; the result is within 5 %.")
              .in({1000, 1e6})
              .or_else(CityParams{}.triangles),

@@ -51,18 +51,15 @@ const TableSpec& frames_table() {
     static const TableSpec spec{
         "[frames]",
         "Which frames there are, and keyframes of camera, lights, optics and stereo. Each key is "
-        "interpolated "
-        "by itself over the keyframes that set it and keeps its first and last value outside them. Angles "
-        "are plain numbers: go "
-        "from 350 "
-        "to 370 to pass north.",
+        "interpolated by itself over the keyframes that set it and keeps its first and last value outside "
+        "them. Angles are plain numbers: go from 350 to 370 to pass north.",
         {
             text_key("range", "One frame \"7\", a range \"1-48\", or every other of it \"1-48x2\".")
                 .or_else("1"),
             choice_key("interpolation", {"linear", "smooth"},
                        "linear: straight lines. smooth: Catmull-Rom, that is cubic Hermite curves whose "
-                       "tangents are "
-                       "the slopes between the neighbours; results are clamped to the key's range.")
+                       "tangents are the slopes between the neighbours; results are clamped to the key's "
+                       "range.")
                 .or_else("linear"),
             table_list_key("camera", camera),
             table_list_key("light", light),

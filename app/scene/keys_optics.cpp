@@ -180,8 +180,7 @@ const KeyRows<OpticsSettings>& glare_rows() {
             word_row(
                 &OpticsSettings::visibility, visibility_words, "visibility",
                 "Which part of the lens the lamps see (objects whose material clips by itself). open: all of "
-                "it. "
-                "exact: what the scene's triangles do not hide, from the point that each pixel shows. "
+                "it. exact: what the scene's triangles do not hide, from the point that each pixel shows. "
                 "neighbours: the pixels around the source stand for the lens, and those that do not clip "
                 "hide it; cheap, and right only for lamps far behind what hides them."),
             key_row(&OpticsSettings::visibility_samples,
@@ -197,9 +196,8 @@ const KeyRows<OpticsSettings>& glare_rows() {
                 number_key(
                     "focus_m",
                     "Distance along the view axis that is sharp: sources before and behind it show the near "
-                    "field "
-                    "of the aperture, with its rings. The picture itself stays sharp. Everything is in focus "
-                    "when not given.")
+                    "field of the aperture, with its rings. The picture itself stays sharp. Everything is in "
+                    "focus when not given.")
                     .in({1e-6, 1e9})
                     .animate()),
             key_row(&OpticsSettings::focus_steps,

@@ -46,8 +46,7 @@ const KeyRows<Output>& output_rows() {
                 "file",
                 "Name ending in .png (8-bit sRGB) or .pfm (linear float), relative to the current folder and "
                 "inside it; the last #### of the name stands for the frame number, padded to as many digits. "
-                "A "
-                "single # does only where the scene has several frames, and none does in a folder's name.")
+                "A single # does only where the scene has several frames, and none does in a folder's name.")
                 .as_result()
                 .need()),
     };

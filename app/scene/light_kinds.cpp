@@ -89,11 +89,8 @@ KeyRows<Light> sun_rows() {
                     .animate()},
                {number_key("extraterrestrial_w_m2",
                            "Irradiance per channel above the atmosphere, in the scene's scale. What arrives "
-                           "is dimmed and "
-                           "reddened by clear air: exp(-depth * air mass), with depths 0.12, 0.19, 0.31 for "
-                           "red, green, "
-                           "blue "
-                           "and the air mass of Kasten and Young (1989).")
+                           "is dimmed and reddened by clear air: exp(-depth * air mass), with depths 0.12, "
+                           "0.19, 0.31 for red, green, blue and the air mass of Kasten and Young (1989).")
                     .in(brightness)
                     .or_else(5.0)
                     .animate()},
@@ -310,15 +307,12 @@ const std::vector<LightKindRow>& light_kinds() {
         {LightKind::spot, "spot", "Light from a point into a cone.", spot_rows(), finish_spot, check_spot},
         {LightKind::area, "area",
          "Light from a rectangle or an ellipse, as bright from wherever it is seen. It is not seen itself: "
-         "give "
-         "a mesh there the same emission.",
+         "give a mesh there the same emission.",
          area_rows(), finish_area, check_area},
         {LightKind::surface, "surface",
          "Light from all surfaces of a material that shines: lamps of any shape, of which 64 points and more "
-         "are "
-         "asked. With one sample, maps or no shadows it is a point at its middle that gives off as much to "
-         "all "
-         "sides, and nothing nearer to that than what shines casts a shadow.",
+         "are asked. With one sample, maps or no shadows it is a point at its middle that gives off as much "
+         "to all sides, and nothing nearer to that than what shines casts a shadow.",
          surface_rows(), nullptr, check_point},
     };
     return all;

@@ -57,8 +57,8 @@ struct Scene {
     OpticsSettings optics;
     std::vector<Output> outputs;
     Limits limits;
-    std::vector<std::string>
-        notes;  ///< what files hold and the scene has not, and other words for who made it
+    /// What files hold and the scene has not, and other words for who made it.
+    std::vector<std::string> notes;
 };
 
 }  // namespace obscura

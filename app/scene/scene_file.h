@@ -14,8 +14,8 @@ namespace obscura {
 /// A validated scene, defaults included.
 struct SceneDocument {
     SceneTable root;
-    std::vector<std::string>
-        sources;                   ///< names for error messages: the file, then "-D key=value" per override
+    /// Names for error messages: the file, then "-D key=value" per override.
+    std::vector<std::string> sources;
     std::filesystem::path folder;  ///< of the scene file: what its paths are relative to
 };
 

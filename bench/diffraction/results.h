@@ -34,8 +34,8 @@ struct DiffractionRow {
                             ///< what depends on sizes alone is kept, as FFTW keeps its plans
     double prepare_ms = 0;  ///< making what is kept, once
     Timing time;            ///< no calls: not timed, see problem
-    double error =
-        -1;  ///< largest amplitude error, share of the open area (near: of the unit wave); -1 unknown
+    /// Largest amplitude error, share of the open area (near: of the unit wave); -1 unknown.
+    double error = -1;
     double log_psnr_db = -1;
     std::string note;     ///< automatic: what it chose
     std::string problem;  ///< why it was not measured

@@ -109,7 +109,7 @@ void full_spectrum(const PowerImage& from, const std::vector<SpectralSample>& sa
                    const Exec& exec) {
     for (const SpectralSample& sample : samples)
         add_scaled_power(from, from.grid, reference_nm / sample.wavelength_nm, sample.rgb,
-                         Interpolation::linear, sum, exec);
+                         PowerInterpolation::linear, sum, exec);
 }
 
 /// Four scales gathered, then fifteen lookups of four.
@@ -118,12 +118,12 @@ void batch_spectrum(const PowerImage& from, const std::vector<SpectralSample>& s
     double ladder[4];
     for (std::size_t i = 0; i < 4; ++i)
         ladder[i] = samples[0].wavelength_nm / samples[i].wavelength_nm;
-    const PowerBatch batch = gather_batch(from, from.grid, ladder, Interpolation::linear, exec);
+    const PowerBatch batch = gather_batch(from, from.grid, ladder, PowerInterpolation::linear, exec);
     for (std::size_t first = 0; first + 4 <= samples.size(); first += 4) {
         const Vec3d weights[4] = {samples[first].rgb, samples[first + 1].rgb, samples[first + 2].rgb,
                                   samples[first + 3].rgb};
         add_scaled_batch(batch, from.grid, reference_nm / samples[first].wavelength_nm, weights,
-                         Interpolation::linear, sum, exec);
+                         PowerInterpolation::linear, sum, exec);
     }
 }
 

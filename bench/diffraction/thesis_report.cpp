@@ -29,9 +29,8 @@ void write_quads(Out out, const std::vector<QuadRow>& rows) {
     if (rows.empty()) return;
     fmt::format_to(
         out,
-        "\n### Quads (Table 3.1)\n\nCounts depend on the shape's size and on how it lies on the grid, "
-        "which the thesis does not say: one size and place per aperture was chosen to match, for all N "
-        "alike. "
+        "\n### Quads (Table 3.1)\n\nCounts depend on the shape's size and on how it lies on the grid, which "
+        "the thesis does not say: one size and place per aperture was chosen to match, for all N alike. "
         "Aggressive: one level coarser.\n\n"
         "| aperture | N | finest | aggressive | thesis, finest | ours / thesis |\n"
         "|---|--:|--:|--:|--:|--:|\n");

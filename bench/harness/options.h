@@ -17,8 +17,8 @@ struct BenchOptions {
     bool quick = false;  ///< small pictures of small scenes: a check, not a measurement
     std::string scene;   ///< only subjects whose name contains this
     std::string part;    ///< only this part of a bench that has parts; empty: all
-    std::function<void(const std::string&)> say = [](const std::string&) {
-    };  ///< one line of progress or result
+    /// One line of progress or result.
+    std::function<void(const std::string&)> say = [](const std::string&) {};
 };
 
 }  // namespace obscura

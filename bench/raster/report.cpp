@@ -148,9 +148,8 @@ std::optional<double> ratio_to_ours(const std::vector<BenchRow>& rows, const Ben
 std::string summary_csv(const std::vector<BenchRow>& rows) {
     std::string text =
         "scene,triangles,workload,width,height,contestant,method,whole_work,threads,runs,median_ms,min_ms,"
-        "max_ms,"
-        "ratio_to_obscura,prepare_ms,prepare_mib,covered,mean_first,mean_second,off,off_inside,version,"
-        "problem\n";
+        "max_ms,ratio_to_obscura,prepare_ms,prepare_mib,covered,mean_first,mean_second,off,off_inside,"
+        "version,problem\n";
     const Out out(text);
     for (const BenchRow& row : rows) {
         fmt::format_to(out, "{},{},{},{},{},{},{},{},{},{},", field(row.scene), row.triangles,

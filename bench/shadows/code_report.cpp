@@ -77,12 +77,10 @@ std::string cost_markdown(const std::vector<CodeRow>& rows) {
     std::string text =
         "## All codes\n\n"
         "Bytes of nodes, without a top grid; seconds from triangles to bytes; million lookups a second of "
-        "one "
-        "thread at the pixels of a 1920 x 1080 picture, with kernels of 1, 3 x 3 and 5 x 5 texels and a top "
-        "grid of "
-        "six levels. Scanlines and voxels (bench/peer_codes) are sizes alone. Rounded: texels of the voxels' "
-        "map "
-        "whose depths have no boundary of voxels among them, so that what they store is not exact.\n\n"
+        "one thread at the pixels of a 1920 x 1080 picture, with kernels of 1, 3 x 3 and 5 x 5 texels and a "
+        "top grid of six levels. Scanlines and voxels (bench/peer_codes) are sizes alone. Rounded: texels of "
+        "the voxels' map whose depths have no boundary of voxels among them, so that what they store is not "
+        "exact.\n\n"
         "| scene | texels | code | MB | /MH | s | 1 | 3x3 | 5x5 | rounded, % |\n"
         "|---|--:|---|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const CodeRow& row : rows) {
@@ -130,9 +128,8 @@ PanelChart cost_chart(const std::vector<CodeRow>& rows) {
 
 std::string merge_csv(const std::vector<CodeRow>& rows) {
     std::string text =
-        "scene,triangles,size,full,empty,leaf,mh_bytes,build_s,mh_s,search,mmh_bytes,ratio,mmh_full,mmh_"
-        "empty,"
-        "mmh_leaf,merged,interval_percent,distance_percent,full_test_percent,float_bits,mmh_s\n";
+        "scene,triangles,size,full,empty,leaf,mh_bytes,build_s,mh_s,search,mmh_bytes,ratio,mmh_full,"
+        "mmh_empty,mmh_leaf,merged,interval_percent,distance_percent,full_test_percent,float_bits,mmh_s\n";
     for (const CodeRow& row : rows) {
         for (const MergeTrial& trial : row.trials) {
             fmt::format_to(Out(text), "{},{},{},{},{},{},{},{:.3f},{:.3f},{},{},{:.4f},{},{},{},{},",
@@ -165,8 +162,7 @@ std::string merge_markdown(const std::vector<CodeRow>& rows) {
     }
     text +=
         "\n## Pairs\n\nWhat became of the pairs that were compared, 1000 survivors, in percent; the paper's "
-        "table 3 has "
-        "62 to 67, 0 to 14 and 24 to 36 of those rejected.\n\n"
+        "table 3 has 62 to 67, 0 to 14 and 24 to 36 of those rejected.\n\n"
         "| scene | texels | extremes apart | too far | value by value | merged | s "
         "|\n|---|--:|--:|--:|--:|--:|--:|\n";
     for (const CodeRow& row : rows) {
@@ -184,8 +180,7 @@ std::string merge_markdown(const std::vector<CodeRow>& rows) {
 std::string dag_csv(const std::vector<CodeRow>& rows) {
     std::string text =
         "scene,size,mh_bytes,mmh_bytes,packed,treelet_levels,chunk,dag_bytes,inner_nodes,inner_bytes,"
-        "treelets,"
-        "treelet_bytes,values,chunk_bytes,factors,factor_bytes,dag_s\n";
+        "treelets,treelet_bytes,values,chunk_bytes,factors,factor_bytes,dag_s\n";
     for (const CodeRow& row : rows) {
         for (const DagTrial& trial : row.dag_trials) {
             const DagStats& s = trial.stats;
@@ -202,11 +197,9 @@ std::string dag_csv(const std::vector<CodeRow>& rows) {
 std::string dag_markdown(const std::vector<CodeRow>& rows) {
     std::string text =
         "\n## Graphs\n\nAs the paper has them, with treelets of four levels and chunks of 32; then bytes "
-        "over theirs "
-        "with other treelets and chunks, and packed. MMH: 1000 survivors.\n\n"
+        "over theirs with other treelets and chunks, and packed. MMH: 1000 survivors.\n\n"
         "| scene | texels | DAG, MB | structure | values | /MH | /MMH | 1 level | 2 | 3 | 5 | chunks of 16 | "
-        "64 | "
-        "128 | packed, 32 | 64 | 128 | with factor, % | bits of one | s |\n"
+        "64 | 128 | packed, 32 | 64 | 128 | with factor, % | bits of one | s |\n"
         "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const CodeRow& row : rows) {
         const DagTrial& first = row.dag_trials.front();

@@ -124,14 +124,11 @@ std::string exact_markdown(const std::vector<ExactRow>& rows, const std::vector<
             out,
             "\n## One frame's shadows, exact or by rays\n\n![chart](shadows_exact_samples.svg)\n\n"
             "![chart](shadows_exact_triangles.svg)\n\nMedians, milliseconds. Order: putting casters in "
-            "order; "
-            "hierarchy: Embree's. Samples: pairs of a sample and a light that are looked up, by both. "
-            "Groups, "
-            "triangles: that exact shadows look at, per hundred samples. Lit: of the samples, by each. "
-            "Ratio: "
-            "above 1 exact is faster.\n\n| scene | triangles | lights | picture | per pixel | threads | "
-            "samples | groups | triangles | lit %, exact | by rays | order | lookups | hierarchy | packets | "
-            "ratio |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
+            "order; hierarchy: Embree's. Samples: pairs of a sample and a light that are looked up, by both. "
+            "Groups, triangles: that exact shadows look at, per hundred samples. Lit: of the samples, by "
+            "each. Ratio: above 1 exact is faster.\n\n| scene | triangles | lights | picture | per pixel | "
+            "threads | samples | groups | triangles | lit %, exact | by rays | order | lookups | hierarchy | "
+            "packets | ratio |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     }
     for (const ExactRow& row : rows) {
         if (!row.problem.empty()) {

@@ -32,11 +32,11 @@ void write_accuracy(Out out, const std::vector<AccuracyRow>& rows) {
     if (rows.empty()) return;
     fmt::format_to(
         out,
-        "\n## Wrong pixels against exact rays\n\n![chart](shadows_accuracy.svg)\n\n![chart]"
-        "(shadows_bytes.svg)\n\nOne lookup per pixel, kernel of one texel, 1920 x 1080 unless quick. Worse, "
-        "better: "
-        "pixels that compressed has wrong and the dense map of that size right, and the reverse. The last "
-        "columns say why pixels are wrong: see bench/README.md.\n\n"
+        "\n## Wrong pixels against exact "
+        "rays\n\n![chart](shadows_accuracy.svg)\n\n![chart](shadows_bytes.svg)\n\nOne lookup per pixel, "
+        "kernel of one texel, 1920 x 1080 unless quick. Worse, better: pixels that compressed has wrong and "
+        "the dense map of that size right, and the reverse. The last columns say why pixels are wrong: see "
+        "bench/README.md.\n\n"
         "| scene | map | wrong % | pixels | worse | better | outline | inside | grazing | open | MB | built "
         "in s |\n|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (const AccuracyRow& row : rows) {
@@ -191,9 +191,8 @@ void write_trees(Out out, const std::vector<SizeRow>& rows) {
     fmt::format_to(
         out,
         "\n## Trees against dense maps\n\n![chart](shadows_trees.svg)\n\nBytes in words with 24-bit offsets; "
-        "of "
-        "dense: of four bytes per texel. Growth: against half the size. Peak: resident memory above what was "
-        "there before the build.\n\n"
+        "of dense: of four bytes per texel. Growth: against half the size. Peak: resident memory above what "
+        "was there before the build.\n\n"
         "| scene | map | nodes | MB | % of dense | growth | 16-bit words | 16-bit bytes | build s | growth | "
         "encode s | texels rasterized | covers | meshes | peak MiB |\n"
         "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
@@ -263,8 +262,7 @@ std::string method_name(const std::string& method, int size) {
 std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
     std::string text =
         "scene,triangles,method,size,bytes,build_s,covered,facing,wrong,wrong_percent,leaks,open,grazing,"
-        "outline,"
-        "inside,worse,better,naive_steps,shared_steps\n";
+        "outline,inside,worse,better,naive_steps,shared_steps\n";
     for (const AccuracyRow& row : rows) {
         const WrongPixels& w = row.wrong;
         const auto kind = [&](std::size_t k) {  // rays are not judged by kind
@@ -283,10 +281,7 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows) {
 std::string sweep_csv(const std::vector<SweepRow>& rows) {
     std::string text =
         "scene,triangles,elevation_deg,method,asked,magnification,found,bytes,build_s,covered,wrong,"
-        "wrong_percent,leaks,"
-        "open,"
-        "grazing,"
-        "outline,inside,off,edge,beside,unexplained,problem\n";
+        "wrong_percent,leaks,open,grazing,outline,inside,off,edge,beside,unexplained,problem\n";
     for (const SweepRow& row : rows) {
         const WrongPixels& w = row.wrong;
         fmt::format_to(Out(text), "{},{},{},{},{},{},{},{},{:.3f},{},{},{:.6f},{},", row.scene, row.triangles,
@@ -301,9 +296,8 @@ std::string sweep_csv(const std::vector<SweepRow>& rows) {
 
 std::string times_csv(const std::vector<TimeRow>& rows) {
     std::string text =
-        "scene,triangles,method,size,job,threads,runs,median_ms,min_ms,max_ms,lookups,million_per_s_per_"
-        "thread,"
-        "bytes,version,problem\n";
+        "scene,triangles,method,size,job,threads,runs,median_ms,min_ms,max_ms,lookups,"
+        "million_per_s_per_thread,bytes,version,problem\n";
     for (const TimeRow& row : rows) {
         fmt::format_to(Out(text), "{},{},{},{},\"{}\",{},{},", row.scene, row.triangles, row.method, row.size,
                        row.job, row.threads, row.runs_ms.size());

@@ -116,13 +116,11 @@ std::string csv_of(const std::vector<SoftRow>& rows) {
 std::string markdown_of(const std::vector<SoftRow>& rows) {
     std::string text =
         "\n![chart](shadows_soft.svg)\n\nMedians, milliseconds, for a picture of 1920 x 1080 with one sample "
-        "a "
-        "pixel. Order: casters as the light's middle sees them, and what its points see of the vertices; of "
-        "points that are no disc's, within the lookups. Ratio: Embree's time over ours, above 1 ours is "
+        "a pixel. Order: casters as the light's middle sees them, and what its points see of the vertices; "
+        "of points that are no disc's, within the lookups. Ratio: Embree's time over ours, above 1 ours is "
         "faster; kept: without the time its hierarchy takes. Apart: pairs of a sample and a point of which "
         "one is lit and one is not, of those that both ask.\n\n| scene | triangles | light | points | "
-        "threads | "
-        "order | lookups | hierarchy | rays | ratio | kept | apart % |\n"
+        "threads | order | lookups | hierarchy | rays | ratio | kept | apart % |\n"
         "|---|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const SoftRow& row : rows) {
         if (!row.problem.empty()) {

@@ -192,12 +192,11 @@ std::string soft_error_csv(const std::vector<SoftErrorRow>& rows) {
 std::string soft_error_markdown(const std::vector<SoftErrorRow>& rows, const SoftErrorPlan& plan) {
     std::string text = fmt::format(
         "\n![chart](shadows_soft_error.svg)\n\nA picture of {} x {} with one sample a pixel. Error: root "
-        "mean "
-        "square difference of the share of the light that reaches a sample, from that of {} points by exact "
-        "shadows. The stack has maps of {} x {} texels of the same points that exact shadows ask; what its "
-        "texels get wrong is left when points are many. Built: what casts shadows put in order (of a panel's "
-        "points within asked), the stack, Embree's hierarchy; while scene and light stand still, all can be "
-        "kept. One run of each, milliseconds.\n\n"
+        "mean square difference of the share of the light that reaches a sample, from that of {} points by "
+        "exact shadows. The stack has maps of {} x {} texels of the same points that exact shadows ask; what "
+        "its texels get wrong is left when points are many. Built: what casts shadows put in order (of a "
+        "panel's points within asked), the stack, Embree's hierarchy; while scene and light stand still, all "
+        "can be kept. One run of each, milliseconds.\n\n"
         "| scene | light | points | method | error | built | asked | MB "
         "|\n|---|---|--:|---|--:|--:|--:|--:|\n",
         plan.picture.width, plan.picture.height, plan.reference_points, plan.texels, plan.texels);

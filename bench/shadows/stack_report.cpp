@@ -59,8 +59,8 @@ std::string stack_csv(const std::vector<StackRow>& rows) {
 std::string stack_markdown(const std::vector<StackRow>& rows) {
     std::string text =
         "## Bytes\n\nOctree over the sum of the maps' quadtrees, both in words with 16 bits of offset (the "
-        "cube: what "
-        "the paper divides). Seconds: of all octrees that were tried, and of counting quadtrees.\n\n"
+        "cube: what the paper divides). Seconds: of all octrees that were tried, and of counting "
+        "quadtrees.\n\n"
         "| scene | texels | maps | lamp, % | aim | parallax, texels | cube | best | anisotropy | octree, MB "
         "| s |\n"
         "|---|--:|--:|--:|---|--:|--:|--:|--:|--:|--:|\n";
@@ -75,8 +75,7 @@ std::string stack_markdown(const std::vector<StackRow>& rows) {
     }
     text +=
         "\n## Steps\n\nNodes read for one point of a picture, all maps asked: in the maps' quadtrees, in the "
-        "octree "
-        "one map after the other, and all at once (runs of maps asked in brackets).\n\n"
+        "octree one map after the other, and all at once (runs of maps asked in brackets).\n\n"
         "| scene | texels | maps | points | quadtrees | one by one | at once "
         "|\n|---|--:|--:|---|--:|--:|--:|\n";
     const auto steps = [&](const StackRow& row, const char* which, std::size_t points, const StackSteps& s) {
@@ -100,8 +99,7 @@ int bench_stack(const BenchOptions& options) {
             StackRow row = measure_stack(recipe, subject, options);
             options.say(fmt::format(
                 "{}, {} maps of {}, lamp {} %, {}: octree / quadtrees {:.3f} (anisotropy {}, cube {:.3f}), "
-                "{:.2f} MB, "
-                "{:.1f} s; steps {:.0f} at once, {:.0f} one by one, {:.0f} in quadtrees",
+                "{:.2f} MB, {:.1f} s; steps {:.0f} at once, {:.0f} one by one, {:.0f} in quadtrees",
                 row.scene, subject.maps, subject.resolution, subject.light_percent, aim_name(subject.aim),
                 row.ratio(), row.anisotropy, cube_ratio(row), static_cast<double>(row.bytes) * 1e-6,
                 row.build_s, row.everywhere.all, row.everywhere.each, row.everywhere.quadtrees));

@@ -166,9 +166,8 @@ std::string stereo_goals_markdown(const StereoResults& results) {
         add_speed(results, *row, goals);
     std::string text =
         "## Goals\n\nMethod `multigrid` with its default tolerances; the worst counts. Times: one thread, "
-        "the "
-        "base case, whole calls that stop by themselves. *Levels kept*: an earlier solve with the same masks "
-        "and weights left them.\n\n| goal | aim | reached | where | met |\n|---|--:|--:|---|---|\n";
+        "the base case, whole calls that stop by themselves. *Levels kept*: an earlier solve with the same "
+        "masks and weights left them.\n\n| goal | aim | reached | where | met |\n|---|--:|--:|---|---|\n";
     for (const Goal& goal : goals) {
         if (!goal.reached) continue;
         fmt::format_to(std::back_inserter(text), "| {} | {} | {}{} | {} | {} |\n", goal.what, aim_text(goal),

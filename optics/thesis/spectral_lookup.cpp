@@ -19,13 +19,13 @@ struct Taps {
     float weight[4];
 };
 
-Taps taps_at(double place, int size, Interpolation interpolation) {
+Taps taps_at(double place, int size, PowerInterpolation interpolation) {
     const double whole = std::floor(place);
     const double t = place - whole;
     Taps taps{};
     for (int i = 0; i < 4; ++i)
         taps.at[i] = static_cast<int>(std::clamp(whole + (i - 1), 0.0, static_cast<double>(size - 1)));
-    if (interpolation == Interpolation::linear) {
+    if (interpolation == PowerInterpolation::linear) {
         taps.weight[1] = static_cast<float>(1 - t);
         taps.weight[2] = static_cast<float>(t);
     } else {
@@ -39,7 +39,7 @@ Taps taps_at(double place, int size, Interpolation interpolation) {
 
 /// Taps of every column (or row) of `grid`, scaled, in `from`.
 std::vector<Taps> taps_along(double first, double step, int count, double scale, double from_first,
-                             double from_step, int from_size, Interpolation interpolation) {
+                             double from_step, int from_size, PowerInterpolation interpolation) {
     std::vector<Taps> taps;
     taps.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i)
@@ -48,8 +48,8 @@ std::vector<Taps> taps_along(double first, double step, int count, double scale,
     return taps;
 }
 
-float interpolate(const Image<float>& image, const Taps& x, const Taps& y, Interpolation interpolation) {
-    const int begin = interpolation == Interpolation::linear ? 1 : 0, end = 4 - begin;
+float interpolate(const Image<float>& image, const Taps& x, const Taps& y, PowerInterpolation interpolation) {
+    const int begin = interpolation == PowerInterpolation::linear ? 1 : 0, end = 4 - begin;
     float sum = 0;
     for (int j = begin; j < end; ++j) {
         const float* row = image.row(y.at[j]);
@@ -64,7 +64,7 @@ float interpolate(const Image<float>& image, const Taps& x, const Taps& y, Inter
 /// Calls visit(x, y, taps of x, taps of y) for every pixel of `grid`, scaled into `from`.
 template <class Visit>
 void for_scaled_pixels(const FrequencyGrid& grid, double scale, const FrequencyGrid& from,
-                       Interpolation interpolation, const Exec& exec, Visit&& visit) {
+                       PowerInterpolation interpolation, const Exec& exec, Visit&& visit) {
     const std::vector<Taps> columns = taps_along(grid.first_u, grid.step_u, grid.width, scale, from.first_u,
                                                  from.step_u, from.width, interpolation);
     const std::vector<Taps> rows = taps_along(grid.first_v, grid.step_v, grid.height, scale, from.first_v,
@@ -104,7 +104,7 @@ FrequencyGrid scaled_cover(const FrequencyGrid& grid, double least_scale, double
 }
 
 void add_scaled_power(const PowerImage& from, const FrequencyGrid& grid, double scale, Vec3d weight,
-                      Interpolation interpolation, Image<Vec3f>& sum, const Exec& exec) {
+                      PowerInterpolation interpolation, Image<Vec3f>& sum, const Exec& exec) {
     const Vec3f colour = to_float(weight);
     for_scaled_pixels(grid, scale, from.grid, interpolation, exec,
                       [&](int x, int y, const Taps& column, const Taps& row) {
@@ -114,7 +114,7 @@ void add_scaled_power(const PowerImage& from, const FrequencyGrid& grid, double 
 }
 
 PowerBatch gather_batch(const PowerImage& from, const FrequencyGrid& grid, const double (&ladder)[4],
-                        Interpolation interpolation, const Exec& exec) {
+                        PowerInterpolation interpolation, const Exec& exec) {
     PowerBatch batch;
     batch.grid = grid;
     for (int c = 0; c < 4; ++c) {
@@ -128,7 +128,7 @@ PowerBatch gather_batch(const PowerImage& from, const FrequencyGrid& grid, const
 }
 
 void add_scaled_batch(const PowerBatch& from, const FrequencyGrid& grid, double scale,
-                      const Vec3d (&weight)[4], Interpolation interpolation, Image<Vec3f>& sum,
+                      const Vec3d (&weight)[4], PowerInterpolation interpolation, Image<Vec3f>& sum,
                       const Exec& exec) {
     Vec3f colour[4];
     for (int c = 0; c < 4; ++c)

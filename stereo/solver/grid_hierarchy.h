@@ -70,8 +70,8 @@ struct GridHierarchy {
     std::vector<Pixel> hubs;             ///< source pixels, ascending in (y, x), each once
     std::vector<std::int32_t> unknowns;  ///< coarsest level: cell indices; then come the hubs
     std::vector<double> factor;          ///< Cholesky factor of the coarsest level
-    std::int64_t shared_cells =
-        0;  ///< of all levels, with unknowns of the finer one that have no edge within
+    /// Of all levels, with unknowns of the finer one that have no edge within.
+    std::int64_t shared_cells = 0;
 };
 
 /// Levels of the system's matrix down to at most 8 x 8 cells. Sets whose source is not valid are left out.

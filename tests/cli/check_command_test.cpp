@@ -59,8 +59,7 @@ file = "out_####.png"
           "output    beauty -> out_####.png",
           "light     lamp: point, 6 dense shadow maps of 1024 x 1024, filter 3 x 3, 24.0 MiB",
           "light     spot: spot, 1 compressed shadow map of 65536 x 65536, filter 3 x 3, built whole, "
-          "filtered "
-          "hierarchically, about 12.0 MiB",
+          "filtered hierarchically, about 12.0 MiB",
           "light     sun: directional, 1 compressed shadow map of 16384 x 16384, texels of ",
           "          compressed: 'resolution' is of maps\n", "          auto: a texel spans 0.",
           "light     moon: directional, shadows of the picture's own samples, exact: 12 triangles to put in "
@@ -118,8 +117,8 @@ TEST(CheckCommand, StacksAreToldAdvisedAndRefusedAtTheirKey) {
     const std::string told = check_report({folder.path / "s.toml", {}, {}});
     for (const char* line :
          {"light     lamp: area, a stack of 64 shadow maps of 512 x 512, aimed at a level plane: 12 "
-          "triangles to "
-          "build 64 times, once, 1280 samples to look up a frame, all maps each; about 64.9 KiB, ",
+          "triangles to build 64 times, once, 1280 samples to look up a frame, all maps each; about 64.9 "
+          "KiB, ",
           " more meanwhile\n          stack: as asked\n"})
         EXPECT_NE(told.find(line), std::string::npos) << told;
     EXPECT_EQ(told.find("note      light"), std::string::npos) << told;

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/frame/shadow_text.h"
 #include "core/image_io.h"
 #include "core/isa.h"
 #include "tests/cli/scene_folder.h"
@@ -180,6 +181,32 @@ TEST(Render, ChannelsHaveTheirMeaning) {
     EXPECT_EQ(png(folder / "m.shadow.png")(0, 0).r, 255);
     const Vec3f albedo = pfm<Vec3f>(folder / "s.albedo.pfm")(32, 24);
     EXPECT_GT(albedo.x, albedo.z);
+}
+
+/// Glare, lights with a size, stacks and trees, textures.
+TEST(Render, IsExpectedToTakeWhatCheckSays) {
+    const SceneFolder folder;
+    for (const char* name :
+         {"box_on_plane", "glare_post", "soft_stack", "spot", "stereo_pair", "textured_quad", "two_lights"}) {
+        const std::string scene = std::string(OBSCURA_SOURCE_DIR "/scenes/tests/") + name + ".toml";
+        const Outcome checked = run_in(folder, {"check", scene});
+        const Outcome rendered =
+            run_in(folder, {"render", scene, "-q", "--overwrite", "-o", "p.png", "--stats-json", "p.json"});
+        ASSERT_TRUE(checked.code == 0 && rendered.code == 0) << checked.err << rendered.err;
+        const Json memory = parse_json(file_text(folder / "p.json")).at("memory");
+        const auto bytes = static_cast<std::int64_t>(memory.at("estimate_bytes").number);
+        EXPECT_NE(checked.out.find("memory    about " + size_text(bytes) + " of "), std::string::npos)
+            << name << ": " << bytes << '\n'
+            << checked.out;
+        // And both refuse less than that.
+        const std::string limit = "limits.memory_mib=" + std::to_string(bytes >> 20);
+        const Outcome refused = run_in(folder, {"check", scene, "-D", limit});
+        const Outcome not_rendered = run_in(folder, {"render", scene, "-o", "no.png", "-D", limit});
+        EXPECT_EQ(refused.code, 4) << name;
+        EXPECT_EQ(not_rendered.code, 4) << name;
+        EXPECT_EQ(refused.err, not_rendered.err);
+        EXPECT_EQ(refused.out.find("ok"), std::string::npos) << refused.out;
+    }
 }
 
 TEST(Render, StatisticsAreJsonWithTheStatedMembers) {

@@ -305,8 +305,7 @@ TEST(FrameGlare, ContradictionsAreErrors) {
          "'blades' does not apply to [optics] with aperture = \"circle\""},
         {"[optics]\nfocal_length_mm = 50\nsensor_width_mm = 36\n",
          "'sensor_width_mm' = 36 does not fit focal_length_mm = 50 and the camera's angle of view, which "
-         "make it "
-         "54.5955"},
+         "make it 54.5955"},
         {"[optics]\ntemperature_kelvin = 3000\n", "'temperature_kelvin' needs light = \"blackbody\""},
         {"[optics]\naperture = \"irsi\"\n", "did you mean 'iris'?"},
         {"[optics]\nradius_px = 0\n", "'radius_px' must be in [1, 4096], not 0"},

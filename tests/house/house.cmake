@@ -17,7 +17,7 @@ set(here ${CMAKE_CURRENT_SOURCE_DIR}/house)
 # Builds that checks make for themselves.
 set(other_builds ${CMAKE_BINARY_DIR}/other_builds)
 
-foreach(check doors includes libm files links format)
+foreach(check doors includes libm names files links format)
   house_test(${check} ${here}/house_checks.sh ${check} ${CMAKE_SOURCE_DIR})
 endforeach()
 house_test(checks_find_violations ${here}/house_checks.sh self-test)

@@ -69,9 +69,33 @@ check_files() {
     sources | grep '\.h$' | xargs -r grep -L '^#pragma once' | sed 's/$/: no #pragma once/'
 }
 
+# All rooms share a namespace, so a type's name has one meaning in it: of two with the same name the linker keeps one's
+# functions (constructors, vectors of them) for both and says nothing. Unnamed namespaces hide theirs.
+check_names() {
+    local files
+    mapfile -t files < <(sources)
+    [ ${#files[@]} -gt 0 ] || return 0
+    awk '
+        FNR == 1 { depth = hidden = 0 }
+        /^namespace / { space[++depth] = $2; if ($2 == "{") ++hidden; next }
+        /^}.*\/\/ namespace/ && depth > 0 { if (space[depth] == "{") --hidden; --depth; next }
+        !hidden && /^(struct|class|enum class) / && (/\{/ || !/;$/) {
+            line = $0
+            sub(/^(enum )?(struct|class) +(alignas\([^)]*\) +)?/, "", line)
+            if (line ~ /^[A-Za-z0-9_]+::/) next  # of a class that is declared elsewhere
+            match(line, /^[A-Za-z0-9_<>, ]*[A-Za-z0-9_>]/)
+            name = substr(line, 1, RLENGTH); sub(/ final$/, "", name)
+            for (i = depth; i > 0; --i) name = space[i] "::" name
+            if (name in place && place[name] != FILENAME)
+                print FILENAME ":" FNR ": there is another " name " in " place[name]
+            else place[name] = FILENAME
+        }' "${files[@]}"
+}
+
 # Every relative link and every file that a page names is there, and every one that a comment names with its folder: beside the page or below it, or named
 # from the top. A file is a name with an ending of sources or pages; data and pictures only with their folder. Words in
-# capitals stand for something else (NAME.txt), and what a build or the reader makes is not looked for.
+# capitals stand for something else (NAME.txt), and what a build or the reader makes is not looked for. And links lead
+# from the front page to every page.
 check_links() {
     local pages place name
     sources | xargs -r grep -HnoE '// .*[a-z_]+/[a-z_]+\.(h|cpp)\b' |
@@ -104,8 +128,9 @@ check_links() {
             while (match(line, /\]\([^)]*\)/)) {
                 link = substr(line, RSTART + 2, RLENGTH - 3); line = substr(line, RSTART + RLENGTH)
                 sub(/#.*/, "", link)
-                if (link != "" && link !~ /^[a-z]+:/ && !(tidy(folder link) in present))
-                    print page ":" FNR ": the link " link " leads nowhere"
+                if (link == "" || link ~ /^[a-z]+:/) continue
+                if (tidy(folder link) in present) links[FILENAME] = links[FILENAME] "\n" tidy(folder link)
+                else print page ":" FNR ": the link " link " leads nowhere"
             }
             line = $0
             gsub(/\]\([^)]*\)/, "", line); gsub(/\/\.cpp/, "", line)
@@ -117,6 +142,17 @@ check_links() {
                 sub(/^\.\//, "", name)
                 if (!is_there(name, folder)) print page ":" FNR ": there is no " name
             }
+        }
+        END {
+            if (!("./README.md" in present)) exit
+            reached["./README.md"] = 1; queue[1] = "./README.md"
+            for (next_page = last = 1; next_page <= last; ++next_page) {
+                n = split(links[queue[next_page]], list, "\n")
+                for (i = 2; i <= n; ++i)
+                    if (!(list[i] in reached)) { reached[list[i]] = 1; queue[++last] = list[i] }
+            }
+            for (page in present)
+                if (page ~ /\.md$/ && !(page in reached)) print substr(page, 3) ": no link leads here from README.md"
         }' - "${pages[@]}"
 }
 
@@ -148,6 +184,8 @@ self_test() {
         mkdir -p "$work/tree/$(dirname "$2")"
         cp .clang-format "$work/tree" 2>/dev/null
         printf '%b' "$3" >"$work/tree/$2"
+        [ -z "${twin-}" ] || printf '%b' "$twin" >"$work/tree/$(dirname "$2")/twin.h"
+        [ -z "${front_page-}" ] || printf '%b' "$front_page" >"$work/tree/README.md"
         run_check "$1" "$work/tree" >"$work/out" 2>/dev/null
         local status=$?
         [ "$status" -ne 77 ] || return 0
@@ -194,6 +232,12 @@ self_test() {
     plant files core/a.cpp "$(printf 'x\\n%.0s' {1..401})" found
     plant files core/a.cpp '// TODO later\n' found
     plant files core/a.h '#pragma once\nint f();\n' clean
+    twin='namespace obscura {\nstruct A {\n};\n}  // namespace obscura\n'
+    plant names core/a.h 'namespace obscura {\nenum class A { b, c };\n}  // namespace obscura\n' found
+    plant names core/a.cpp 'namespace obscura {\nstruct alignas(64) A : B {\n};\n}  // namespace obscura\n' found
+    plant names core/a.cpp 'namespace obscura {\nstruct A;\nnamespace {\nstruct A {\n};\n}  // namespace\n}' clean
+    plant names core/a.cpp 'namespace obscura::test {\nclass A {};\n}  // namespace obscura::test\n' clean
+    twin=
     plant links core/README.md 'See [there](b.md).\n' found
     plant links core/README.md 'See [here](README.md#top) and [top](https://a.b/c.md).\n' clean
     plant links core/README.md 'Read `gone.h` first.\n' found
@@ -202,6 +246,11 @@ self_test() {
     plant links core/README.md './obscura render scenes/gone.toml\n' found
     plant links core/a.h '// As core/gone.h says.\n' found
     plant links core/a.h '// As core/a.h says, and a.h.\n' clean
+    local front_page='Read [core](core/README.md).\n'
+    plant links core/README.md 'Reached.\n' clean
+    front_page='No link.\n'
+    plant links core/README.md 'See [it](README.md).\n' found
+    front_page=
     plant format core/a.cpp 'int  f( ) ;\n' found
     plant format core/a.cpp 'int f();\n' clean
     rm -rf "$work"

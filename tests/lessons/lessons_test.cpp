@@ -230,14 +230,14 @@ TEST(Lessons, LessonTwelvesColoursAddUpAndNeedFineLookups) {
         before = error;
     }
     EXPECT_LT(before, 1e-3);
-    const auto lookup_error = [&](double step, Interpolation interpolation) {
+    const auto lookup_error = [&](double step, PowerInterpolation interpolation) {
         return colour_error(looked_up_colour(aperture, grid, 60, step, interpolation, {}), all, grid, 0,
                             reach);
     };
-    EXPECT_GT(lookup_error(1.0 / 64, Interpolation::linear), 0.1);
-    EXPECT_GT(lookup_error(1.0 / 64, Interpolation::cubic), 0.1);
-    EXPECT_LT(lookup_error(1.0 / 128, Interpolation::cubic), 0.06);
-    EXPECT_LT(lookup_error(1.0 / 256, Interpolation::cubic), 0.01);
+    EXPECT_GT(lookup_error(1.0 / 64, PowerInterpolation::linear), 0.1);
+    EXPECT_GT(lookup_error(1.0 / 64, PowerInterpolation::cubic), 0.1);
+    EXPECT_LT(lookup_error(1.0 / 128, PowerInterpolation::cubic), 0.06);
+    EXPECT_LT(lookup_error(1.0 / 256, PowerInterpolation::cubic), 0.01);
 }
 
 /// Lesson 13: an eye's picture shows at X +- d/2 what the middle view has at X.

@@ -70,12 +70,10 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:3:1: 'mesh' must be a list of tables [[mesh]], not a table"},
         {"QuotedUnit", camera("vfov_deg = \"45 deg\""),
          "s.toml:3:12: 'vfov_deg' must be a number of degrees, not the string \"45 deg\"; write 45 without "
-         "quotes, the "
-         "unit stands in the key's name"},
+         "quotes, the unit stands in the key's name"},
         {"BareUnit", camera("vfov_deg = 45 deg"),
          "s.toml:3:15: in key-value pair: expected a comment or whitespace, saw 'd' (a value is a plain "
-         "number: its "
-         "unit stands in the key's name)"},
+         "number: its unit stands in the key's name)"},
         {"NotANumber", camera("vfov_deg = nan"), "s.toml:3:12: 'vfov_deg' must be finite, not nan"},
         {"Infinite", camera("near_m = inf"), "s.toml:3:10: 'near_m' must be finite, not inf"},
         {"InfiniteComponent", camera("eye_m = [0, -inf, 5]"),
@@ -98,9 +96,7 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:5:1: 'height_m' does not apply to [camera] with projection = \"perspective\""},
         {"UnknownChoice", light("type = \"dirctional\""),
          "s.toml:5:8: 'type' must be one of \"directional\", \"sun\", \"point\", \"spot\", \"area\", "
-         "\"surface\", "
-         "not \"dirctional\"; did you mean "
-         "'directional'?"},
+         "\"surface\", not \"dirctional\"; did you mean 'directional'?"},
         {"UnlistedInteger", scene("[render]\nsamples = 2"),
          "s.toml:4:11: 'samples' must be one of 1, 4, 16, not 2"},
         {"IntegerWanted", scene("[render]\nsamples = 4.0"),
@@ -194,8 +190,7 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:9:14: 'shadow' must be tables [shadow.NAME], not an integer"},
         {"UnknownLayout", light(directional + "shadow.layout = \"words32\""),
          "s.toml:8:17: 'layout' must be one of \"words24\", \"words16\", \"bytes16\", not \"words32\"; did "
-         "you "
-         "mean 'words24'?"},
+         "you mean 'words24'?"},
         {"UnknownCode", light(directional + "shadow.code = \"tree\""),
          "s.toml:8:15: 'code' must be one of \"auto\", \"mh\", \"mmh\", \"dag\", not \"tree\""},
         {"LayoutOfMergedTrees", light(directional + "shadow = {code = \"mmh\", layout = \"words16\"}"),
@@ -246,8 +241,7 @@ const std::vector<BadScene>& bad_scenes() {
          "midnight, and 24:00 is the day's end"},
         {"PathOfNoLength", sun_with("to = 00:00:00"),
          "s.toml:9:6: 'to' (00:00:00) must be later than 'from' (00:00) on the same day; a path does not "
-         "pass "
-         "midnight, and 24:00 is the day's end"},
+         "pass midnight, and 24:00 is the day's end"},
         {"PathFromTheDaysEnd", sun_with("from = \"24:00\""),
          "s.toml:9:8: 'to' (24:00) must be later than 'from' (24:00) on the same day; a path does not pass "
          "midnight, and 24:00 is the day's end"},

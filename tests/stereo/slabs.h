@@ -21,14 +21,14 @@ inline MiddleView empty_view(int width, int height, int margin_px = 0) {
     return v;
 }
 
-struct Slab {
+struct PaintedSlab {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< [x0, x1) x [y0, y1), columns of the map
     std::uint32_t object = 0, material = 0;
     float disparity = 0;  ///< at the upper left pixel
     float slope_x = 0, slope_y = 0;
 };
 
-inline void paint(MiddleView& v, const Slab& s) {
+inline void paint(MiddleView& v, const PaintedSlab& s) {
     for (int y = s.y0; y < s.y1; ++y) {
         for (int x = s.x0; x < s.x1; ++x) {
             v.object(x, y) = s.object;
