@@ -15,7 +15,7 @@ namespace {
 
 // The files of scenes/starters, as CMake has put them here.
 constexpr Starter all[] = {
-#include "starters.inc"
+#include "app/cli/starters.inc"
 };
 
 std::string names() {
@@ -38,8 +38,8 @@ int new_command(const NewOptions& options) {
         std::vector<std::string> kinds;
         for (const Starter& s : all)
             kinds.emplace_back(s.name);
-        throw UsageError(fmt::format("--kind '{}'{} is none of {}", options.kind, hint(options.kind, kinds),
-                                     fmt::join(kinds, ", ")));
+        throw UsageError(fmt::format("--kind '{}' is none of {}{}", options.kind, fmt::join(kinds, ", "),
+                                     hint(options.kind, kinds)));
     }
     std::filesystem::path file = options.file;
     if (!file.has_extension()) file += ".toml";

@@ -4,110 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 
+#include "app/models/json_place.h"
 #include "app/models/text_lines.h"
 #include "core/error.h"
 
 namespace obscura {
 namespace {
-
-using Json = nlohmann::json;
-
-/// A value and where it stands.
-class Place {
-  public:
-    Place(const Json& value, std::string where, const std::string& file)
-        : value_(value), where_(std::move(where)), file_(file) {}
-
-    [[noreturn]] void fail(const std::string& message) const {
-        throw InputError(file_, where_.empty() ? message : fmt::format("{}: {}", where_, message));
-    }
-
-    bool has(const char* key) const { return value_.is_object() && value_.contains(key); }
-    Place at(const char* key) const {
-        if (!has(key)) fail(fmt::format("'{}' is missing", key));
-        return {value_[key], where_.empty() ? key : fmt::format("{}.{}", where_, key), file_};
-    }
-    /// The elements of a list under a key; none where there is no such key.
-    std::vector<Place> list(const char* key) const {
-        std::vector<Place> all;
-        if (!has(key)) return all;
-        const Place list = at(key);
-        if (!list.value_.is_array()) list.fail("is not a list");
-        for (std::size_t i = 0; i < list.value_.size(); ++i)
-            all.emplace_back(list.value_[i], fmt::format("{}[{}]", list.where_, i), file_);
-        return all;
-    }
-    std::vector<std::string> keys() const {
-        std::vector<std::string> all;
-        if (!value_.is_object()) return all;
-        for (const auto& item : value_.items())
-            all.push_back(item.key());
-        return all;
-    }
-
-    double number() const {
-        if (!value_.is_number()) fail("is not a number");
-        const auto v = value_.get<double>();
-        if (!(std::fabs(v) <= static_cast<double>(std::numeric_limits<float>::max())))
-            fail("is not a number within the range of floats");
-        return v;
-    }
-    double number(const char* key, double otherwise, double low, double high) const {
-        if (!has(key)) return otherwise;
-        const double v = at(key).number();
-        if (!(v >= low && v <= high)) at(key).fail(fmt::format("{} is not within {} to {}", v, low, high));
-        return v;
-    }
-    std::int64_t integer(const char* key, std::int64_t otherwise) const {
-        if (!has(key)) return otherwise;
-        const Place p = at(key);
-        constexpr std::int64_t most = std::int64_t{1} << 53;
-        if (!p.value_.is_number()) p.fail("is not a number");
-        const auto v = p.value_.get<double>();
-        if (!(v >= 0 && v <= static_cast<double>(most) && v == std::floor(v)))
-            p.fail("is not a whole number from 0 on");
-        return static_cast<std::int64_t>(v);
-    }
-    GltfIndex index(const char* key, std::size_t size) const {
-        if (!has(key)) return -1;
-        const std::int64_t i = integer(key, 0);
-        if (i >= static_cast<std::int64_t>(size)) at(key).fail(fmt::format("there is no {} of {}", i, size));
-        return static_cast<GltfIndex>(i);
-    }
-    std::string text(const char* key) const {
-        if (!has(key)) return "";
-        const Place p = at(key);
-        if (!p.value_.is_string()) p.fail("is not a text");
-        return p.value_.get<std::string>();
-    }
-    template <std::size_t n>
-    std::array<double, n> numbers(const char* key, const std::array<double, n>& otherwise) const {
-        if (!has(key)) return otherwise;
-        const std::vector<Place> all = list(key);
-        if (all.size() != n) at(key).fail(fmt::format("has {} numbers, not {}", all.size(), n));
-        std::array<double, n> out;
-        for (std::size_t i = 0; i < n; ++i)
-            out[i] = all[i].number();
-        return out;
-    }
-    bool flag(const char* key) const {
-        if (!has(key)) return false;
-        if (!at(key).value_.is_boolean()) at(key).fail("is neither true nor false");
-        return at(key).value_.get<bool>();
-    }
-    std::size_t size(const char* key) const {
-        return has(key) && value_[key].is_array() ? value_[key].size() : 0;
-    }
-    const Json& value() const { return value_; }
-
-  private:
-    const Json& value_;
-    std::string where_;
-    const std::string& file_;
-};
 
 GltfMatrix product(const GltfMatrix& a, const double (&r)[3][3], const std::array<double, 3>& scale) {
     GltfMatrix out = a;
@@ -117,7 +20,7 @@ GltfMatrix product(const GltfMatrix& a, const double (&r)[3][3], const std::arra
     return out;
 }
 
-GltfMatrix matrix_of(const Place& node) {
+GltfMatrix matrix_of(const JsonPlace& node) {
     GltfMatrix out;
     if (node.has("matrix")) {
         const auto m = node.numbers<16>("matrix", {});
@@ -151,7 +54,7 @@ class Reader {
         const std::string version = root_.at("asset").text("version");
         if (!version.starts_with("2."))
             root_.at("asset").fail(fmt::format("glTF {} is not read, 2.0 is", shown(version)));
-        for (const Place& extension : root_.list("extensionsRequired")) {
+        for (const JsonPlace& extension : root_.list("extensionsRequired")) {
             const std::string name =
                 extension.value().is_string() ? extension.value().get<std::string>() : "";
             if (name != "KHR_mesh_quantization" && name != "KHR_materials_emissive_strength")
@@ -168,25 +71,25 @@ class Reader {
     }
 
   private:
-    void ignore(const Place& place, std::initializer_list<const char*> keys, const char* of) {
+    void ignore(const JsonPlace& place, std::initializer_list<const char*> keys, const char* of) {
         for (const char* key : keys)
             if (place.has(key)) ++out_.ignored[fmt::format("{} of {}", key, of)];
     }
-    void ignore_extensions(const Place& place, const char* of, std::string_view but = {}) {
+    void ignore_extensions(const JsonPlace& place, const char* of, std::string_view but = {}) {
         if (!place.has("extensions")) return;
         for (const std::string& name : place.at("extensions").keys())
             if (name != but) ++out_.ignored[fmt::format("{} of {}", shown(name), of)];
     }
 
     void read_buffers() {
-        for (const Place& p : root_.list("buffers")) {
+        for (const JsonPlace& p : root_.list("buffers")) {
             GltfBuffer b;
             b.uri = p.text("uri");
             p.at("byteLength");
             b.bytes = p.integer("byteLength", 0);
             out_.buffers.push_back(std::move(b));
         }
-        for (const Place& p : root_.list("bufferViews")) {
+        for (const JsonPlace& p : root_.list("bufferViews")) {
             GltfView v;
             p.at("buffer");
             p.at("byteLength");
@@ -202,11 +105,11 @@ class Reader {
                 p.at("byteStride").fail("is not a multiple of 4 from 4 to 252");
             out_.views.push_back(v);
         }
-        for (const Place& p : root_.list("accessors"))
+        for (const JsonPlace& p : root_.list("accessors"))
             out_.accessors.push_back(accessor(p));
     }
 
-    GltfAccessor accessor(const Place& p) const {
+    GltfAccessor accessor(const JsonPlace& p) const {
         constexpr std::pair<int, GltfComponent> components[] = {
             {5120, GltfComponent::int8},   {5121, GltfComponent::uint8},  {5122, GltfComponent::int16},
             {5123, GltfComponent::uint16}, {5125, GltfComponent::uint32}, {5126, GltfComponent::float32}};
@@ -242,30 +145,30 @@ class Reader {
     }
 
     void read_images() {
-        for (const Place& p : root_.list("images")) {
+        for (const JsonPlace& p : root_.list("images")) {
             GltfImage image;
             image.uri = p.text("uri");
             image.view = p.index("bufferView", out_.views.size());
             if (image.uri.empty() == (image.view < 0)) p.fail("needs either 'uri' or 'bufferView'");
             out_.images.push_back(std::move(image));
         }
-        for (const Place& p : root_.list("textures")) {
+        for (const JsonPlace& p : root_.list("textures")) {
             textures_.push_back(p.index("source", out_.images.size()));
             ignore_extensions(p, "textures");
         }
     }
 
     void read_materials() {
-        for (const Place& p : root_.list("materials")) {
+        for (const JsonPlace& p : root_.list("materials")) {
             GltfMaterial m;
             m.name = p.text("name");
             if (p.has("pbrMetallicRoughness")) {
-                const Place pbr = p.at("pbrMetallicRoughness");
+                const JsonPlace pbr = p.at("pbrMetallicRoughness");
                 m.base_color = pbr.numbers<4>("baseColorFactor", m.base_color);
                 m.metallic = pbr.number("metallicFactor", 1, 0, 1);
                 m.roughness = pbr.number("roughnessFactor", 1, 0, 1);
                 if (pbr.has("baseColorTexture")) {
-                    const Place t = pbr.at("baseColorTexture");
+                    const JsonPlace t = pbr.at("baseColorTexture");
                     t.at("index");
                     m.image = textures_.at(
                         static_cast<std::size_t>(std::max(t.index("index", textures_.size()), GltfIndex{0})));
@@ -295,7 +198,7 @@ class Reader {
         }
     }
 
-    GltfIndex attribute(const Place& attributes, const char* name, int width) const {
+    GltfIndex attribute(const JsonPlace& attributes, const char* name, int width) const {
         const GltfIndex i = attributes.index(name, out_.accessors.size());
         if (i >= 0 && out_.accessors[static_cast<std::size_t>(i)].width != width)
             attributes.at(name).fail(fmt::format("its accessor has {} numbers an element, not {}",
@@ -303,7 +206,7 @@ class Reader {
         return i;
     }
 
-    GltfPrimitive primitive(const Place& p) {
+    GltfPrimitive primitive(const JsonPlace& p) {
         GltfPrimitive out;
         const std::int64_t mode = p.integer("mode", 4);
         if (mode > 6) p.at("mode").fail(fmt::format("there is no {}", mode));
@@ -317,7 +220,7 @@ class Reader {
                  a.component != GltfComponent::uint32))
                 p.at("indices").fail("its accessor has no unsigned integers");
         }
-        const Place attributes = p.at("attributes");
+        const JsonPlace attributes = p.at("attributes");
         out.positions = attribute(attributes, "POSITION", 3);
         if (out.positions < 0) attributes.fail("'POSITION' is missing");
         out.normals = attribute(attributes, "NORMAL", 3);
@@ -343,11 +246,11 @@ class Reader {
     }
 
     void read_meshes() {
-        for (const Place& p : root_.list("meshes")) {
+        for (const JsonPlace& p : root_.list("meshes")) {
             GltfMesh mesh;
             mesh.name = p.text("name");
             p.at("primitives");
-            for (const Place& part : p.list("primitives"))
+            for (const JsonPlace& part : p.list("primitives"))
                 mesh.primitives.push_back(primitive(part));
             out_.meshes.push_back(std::move(mesh));
         }
@@ -356,18 +259,18 @@ class Reader {
     void read_nodes() {
         const std::size_t count = root_.size("nodes");
         std::vector<bool> has_parent(count, false);
-        const auto node_of = [&](const Place& p) {
+        const auto node_of = [&](const JsonPlace& p) {
             const auto i = p.value().is_number() ? p.number() : -1.0;
             if (!(i >= 0 && i < static_cast<double>(count) && i == std::floor(i)))
                 p.fail(fmt::format("there is no such node of {}", count));
             return static_cast<GltfIndex>(i);
         };
-        for (const Place& p : root_.list("nodes")) {
+        for (const JsonPlace& p : root_.list("nodes")) {
             GltfNode node;
             node.name = p.text("name");
             node.mesh = p.index("mesh", out_.meshes.size());
             node.local = matrix_of(p);
-            for (const Place& child : p.list("children")) {
+            for (const JsonPlace& child : p.list("children")) {
                 const GltfIndex i = node_of(child);
                 if (has_parent[static_cast<std::size_t>(i)])
                     child.fail(fmt::format("node {} has two parents", i));
@@ -379,7 +282,8 @@ class Reader {
         }
         if (root_.size("scenes") > 0) {
             const GltfIndex shown_scene = std::max(root_.index("scene", root_.size("scenes")), GltfIndex{0});
-            for (const Place& p : root_.list("scenes")[static_cast<std::size_t>(shown_scene)].list("nodes")) {
+            for (const JsonPlace& p :
+                 root_.list("scenes")[static_cast<std::size_t>(shown_scene)].list("nodes")) {
                 const GltfIndex i = node_of(p);
                 if (has_parent[static_cast<std::size_t>(i)]) p.fail(fmt::format("node {} is no root", i));
                 out_.roots.push_back(i);
@@ -392,7 +296,7 @@ class Reader {
             if (!has_parent[i]) out_.roots.push_back(static_cast<GltfIndex>(i));
     }
 
-    Place root_;
+    JsonPlace root_;
     std::vector<GltfIndex> textures_;  ///< their images
     GltfDocument out_;
 };

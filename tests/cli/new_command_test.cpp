@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "core/error.h"
 #include "core/image_io.h"
 #include "tests/cli/program.h"
@@ -29,8 +31,11 @@ TEST_P(NewCommand, WritesASceneThatRenders) {
     const std::string command = kind == "stereo" ? "stereo" : "render";
     EXPECT_EQ(made.err,
               "written: my scene.toml\nrender it: obscura " + command + " my scene.toml -o my scene.png\n");
-    const Outcome rendered = test::run_in(folder, {command, "my scene.toml", "-o", "my scene.png", "-D",
-                                                   "render.size_px=[64,36]", "-D", "render.samples=1", "-D", "sky.occlusion=false"});
+    std::vector<std::string> words = {command, "my scene.toml",          "-o", "my scene.png",
+                                      "-D",    "render.size_px=[64,36]", "-D", "render.samples=1",
+                                      "-D",    "sky.occlusion=false"};
+    if (kind == "night") words.insert(words.end(), {"-D", "optics.radius_px=16"});
+    const Outcome rendered = test::run_in(folder, words);
     EXPECT_EQ(rendered.code, 0) << rendered.err;
     EXPECT_EQ(decode_png(file_text(folder / "my scene.png"), "picture").height, 36);
 }
@@ -41,6 +46,14 @@ TEST(NewCommand, KindsAreThoseOfTheTest) {
     ASSERT_EQ(starters().size(), 4u);
     for (const Starter& s : starters())
         EXPECT_EQ(s.stereo, std::string(s.name) == "stereo");
+}
+
+TEST(NewCommand, TheReadmeShowsThePlace) {
+    std::string shown, line;
+    std::istringstream text(starters()[0].text);
+    while (std::getline(text, line))
+        shown += line.empty() ? "\n" : "    " + line + "\n";
+    EXPECT_NE(file_text(OBSCURA_SOURCE_DIR "/README.md").find(shown), std::string::npos);
 }
 
 TEST(NewCommand, KeepsWhatIsThere) {
@@ -59,7 +72,7 @@ TEST(NewCommand, UnknownKindsAreRefused) {
     EXPECT_EQ(wrong.code, 2);
     EXPECT_EQ(
         wrong.err,
-        "obscura: error: --kind 'nigth' (did you mean 'night'?) is none of place, object, night, stereo\n");
+        "obscura: error: --kind 'nigth' is none of place, object, night, stereo; did you mean 'night'?\n");
     EXPECT_EQ(test::run_in(folder, {"new"}).code, 2);
     EXPECT_TRUE(folder.listing().empty());
 }

@@ -33,7 +33,7 @@ check_doors() {
     door stb 'stb/|stb_' 'core/image_io\.cpp'
     door toml++ 'toml\+\+/|toml\.hpp' 'app/scene/toml_parse\.cpp'
     door tinyobjloader 'tiny_obj' 'app/models/mtl_text\.cpp|tests/fuzz/obj_peer\.cpp'
-    door nlohmann-json 'nlohmann/' 'app/models/gltf_document\.cpp'
+    door nlohmann-json 'nlohmann/' 'app/models/json_place\.h'
     door CLI11 'CLI/|CLI11' 'app/cli/flags\.cpp'
     door GoogleTest 'g(test|mock)/' 'tests/.*'
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
