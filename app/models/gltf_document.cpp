@@ -324,6 +324,8 @@ GltfDocument parse_gltf_json(std::string_view json, const std::string& file) {
         root = Json::parse(json.begin(), json.end());
     } catch (const Json::parse_error& error) {
         throw InputError(file, fmt::format("is not sound JSON at byte {}", error.byte));
+    } catch (const Json::exception&) {
+        throw InputError(file, "has a number in its JSON that is too large");
     }
     return Reader(root, file).run();
 }

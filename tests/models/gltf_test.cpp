@@ -266,6 +266,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "nodes[0], meshes[0].primitives[0]: 8 corners are no triangles"},
         Spoiled{&CubeJson::nodes, R"([{"mesh":0,"rotation":[0,0,0,2]}])",
                 "nodes[0].rotation: is not a unit quaternion"},
+        Spoiled{&CubeJson::nodes, R"([{"mesh":0,"scale":[1e999,1,1]}])",
+                "has a number in its JSON that is too large"},
         Spoiled{&CubeJson::nodes, R"([{"mesh":0,"scale":[1,1]}])", "nodes[0].scale: has 2 numbers, not 3"},
         Spoiled{&CubeJson::nodes, R"([{"mesh":0,"children":[1]},{"children":[1]}])",
                 "nodes[1].children[0]: node 1 has two parents"},
@@ -308,6 +310,22 @@ TEST(GltfFile, IndicesBeyondTheVerticesAreRefused) {
     cube.uri = "";
     EXPECT_EQ(gltf_error(glb(cube.text(), buffer)),
               "model.gltf: nodes[0], meshes[0].primitives[0]: there is no vertex 8 of 8");
+}
+
+TEST(GltfFile, DeepAndLongJsonEndsNothing) {
+    EXPECT_EQ(gltf_error(std::string(2'000'000, '[')), "model.gltf: is not sound JSON at byte 2000001");
+    const std::string deep = std::string(500'000, '[') + std::string(500'000, ']');
+    EXPECT_EQ(gltf_error(deep), "model.gltf: its JSON is not an object");
+    CubeJson cube;
+    cube.more = R"(,"extras":)" + deep;
+    expect_cube(read_gltf(cube.text()));
+    // A chain of nodes, one below the other.
+    cube.nodes = "[";
+    for (int i = 1; i < 100'000; ++i)
+        cube.nodes += fmt::format("{{\"children\":[{}]}},", i);
+    cube.nodes += R"({"mesh":0,"name":"block"}])";
+    cube.more = "";
+    expect_cube(read_gltf(cube.text()));
 }
 
 TEST(GltfFile, LimitsAreKept) {
