@@ -16,12 +16,20 @@ constinit std::atomic<int> first_signal{0};
 constinit std::atomic<int> policy_now{static_cast<int>(OnSignal::exit_at_once)};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
+/// How long work that was asked to stop may take. Some of it waits for others and would never end: a pipe's
+/// writer for its reader.
+constexpr unsigned patience_s = 1;
+
 extern "C" void on_signal(int number) {
-    const bool first = first_signal.exchange(number) == 0;
+    int none = 0;
+    const bool first = first_signal.compare_exchange_strong(none, number);
     stop.store(true);
-    if (first && policy_now.load() == static_cast<int>(OnSignal::ask_to_stop)) return;
+    if (first && policy_now.load() == static_cast<int>(OnSignal::ask_to_stop)) {
+        ::alarm(patience_s);  // SIGALRM is then the second signal
+        return;
+    }
     remove_pending_outputs();
-    _exit(static_cast<int>(ExitCode::signal_base) + number);
+    _exit(static_cast<int>(ExitCode::signal_base) + first_signal.load());
 }
 
 /// A fault of ours: its default, which writes the core file, follows.

@@ -1,7 +1,9 @@
 // obscura render when something fails from outside: read-only folders, full disks, little memory, signals,
 // rivals.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
@@ -112,6 +114,54 @@ TEST(Render, SignalsWhileAFileIsWrittenLeaveNoTemporary) {
             code = end_while_writing(folder, signal);
         EXPECT_EQ(code, expected);
         EXPECT_FALSE(has_temporary(folder)) << signal;
+    }
+}
+
+/// Whether it ends by itself; else it is killed.
+bool ends(const Program& program) {
+    for (int i = 0; i < 2000; ++i) {
+        if (!program.running()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    program.send(SIGKILL);
+    return false;
+}
+
+/// A run that comes to a pipe once `written` is there, and waits: until somebody reads it, or for ever.
+struct WaitingRun {
+    Names line;
+    const char* pipe;
+    const char* written;
+    bool opened;  ///< for reading, and not read: more is written than it holds
+    int signal;
+};
+
+TEST(Render, SignalsEndRunsThatWaitForAReader) {
+    const Names depth{"render", "s.toml", "-o", "x.pfm", "--aov", "depth", "--size", "400x300", "-q"};
+    const auto with_statistics = [](const char* command) {
+        return Names{command, "s.toml", "-o", "x.png", "--stats-json", "x.json", "-q"};
+    };
+    for (const auto& [line, pipe, written, opened, signal] : std::vector<WaitingRun>{
+             {depth, "x.depth.pfm", "x.pfm", false, SIGTERM},
+             {depth, "x.depth.pfm", "x.pfm", true, SIGTERM},
+             {depth, "x.depth.pfm", "x.pfm", true, SIGALRM},
+             {with_statistics("render"), "x.json", "x.png", false, SIGINT},
+             {with_statistics("stereo"), "x.json", "x.png", false, SIGHUP},
+         }) {
+        const SceneFolder folder;
+        ASSERT_EQ(::mkfifo((folder / pipe).c_str(), 0600), 0);
+        const int reader = opened ? ::open((folder / pipe).c_str(), O_RDONLY | O_NONBLOCK) : -1;
+        Program program(line);
+        program.folder = folder.path;
+        program.start();
+        while (program.running() && !std::filesystem::exists(folder / written))
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        program.send(signal);
+        EXPECT_TRUE(ends(program)) << line[0] << ' ' << signal;
+        EXPECT_EQ(program.wait().code, 128 + signal);
+        EXPECT_FALSE(has_temporary(folder));
+        if (reader >= 0) ::close(reader);
     }
 }
 
