@@ -11,6 +11,7 @@
 
 #include "app/models/model_file.h"
 #include "app/scene/aperture_file.h"
+#include "app/scene/enclosed_lamps.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
 #include "app/scene/mesh_transform.h"
@@ -370,6 +371,8 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     add_emitters(b);
     b.scene.optics.mask = lens_mask(b);
     set_frame(b.scene, document, scene_frames(document).first);
+    for (const std::string& note : enclosed_lamp_notes(b.scene))
+        add_note(b, note);
     return std::move(b.scene);
 }
 
