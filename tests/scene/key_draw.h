@@ -51,7 +51,7 @@ class Draw {
                 return key.name.ends_with("objects") ? names[below(4)] : materials[below(2)];
             }
             case KeyType::date_time:
-                return "2026-06-21T" + time_of_day() + "Z";
+                return date(key.range) + "T" + time_of_day() + offset();
             case KeyType::time_of_day:
                 return "\"" + time_of_day() + "\"";
             default:
@@ -68,6 +68,19 @@ class Draw {
     std::string time_of_day() {
         const std::size_t second = below(86400);
         return fmt::format("{:02}:{:02}:{:02}", second / 3600, second / 60 % 60, second % 60);
+    }
+
+    /// The first and the last day of its years among them.
+    std::string date(const Range& years) {
+        const double kind = chance();
+        if (kind < 0.1) return fmt::format("{:04}-01-01", std::llround(years.lo));
+        if (kind < 0.2) return fmt::format("{:04}-12-31", std::llround(years.hi));
+        const double year = kind < 0.5 ? 2026 : years.lo + std::floor((years.hi - years.lo + 1) * chance());
+        return fmt::format("{:04}-{:02}-{:02}", std::llround(year), 1 + below(12), 1 + below(28));
+    }
+    std::string offset() {
+        if (chance() < 0.5) return "Z";
+        return fmt::format("{}{:02}:{:02}", chance() < 0.5 ? '+' : '-', below(24), below(60));
     }
 
     std::string integer(const KeySpec& key) {
