@@ -52,11 +52,12 @@ double solid_angle(Vec3d a, Vec3d b, Vec3d c) {
 
 /// The object that holds p, or no_object.
 constexpr std::uint32_t no_object = std::numeric_limits<std::uint32_t>::max();
-std::uint32_t object_around(const Mesh& mesh, const std::vector<Solid>& solids, Vec3d p) {
+std::uint32_t object_around(const Mesh& mesh, const std::vector<Solid>& solids,
+                            const std::vector<bool>& left_out, Vec3d p) {
     std::vector<double> turns(mesh.objects.size()), volume(mesh.objects.size());
     bool any = false;
     for (const Solid& solid : solids) {
-        if (!solid.has_in_box(p)) continue;
+        if (!solid.has_in_box(p) || left_out[solid.object]) continue;
         any = true;
         volume[solid.object] += solid.volume;
     }
@@ -70,13 +71,19 @@ std::uint32_t object_around(const Mesh& mesh, const std::vector<Solid>& solids, 
     std::uint32_t inner = no_object;
     for (std::uint32_t o = 0; o < turns.size(); ++o) {
         // On a wall it is a half.
-        if (turns[o] > 0.75 && (inner == no_object || volume[o] < volume[inner])) inner = o;
+        if (turns[o] > 0.75 && !left_out[o] && (inner == no_object || volume[o] < volume[inner])) inner = o;
     }
     return inner;
 }
 
-bool has_place(LightKind kind) {
-    return kind == LightKind::point || kind == LightKind::spot || kind == LightKind::area;
+/// For every object whether it shines as this light does: what stands in itself is in nothing.
+std::vector<bool> own_objects(const Scene& scene, const Light& light) {
+    std::vector<bool> own(scene.mesh.objects.size());
+    if (light.kind != LightKind::surface) return own;
+    for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+        if (scene.materials[scene.mesh.material[t]].name == light.material) own[scene.mesh.object[t]] = true;
+    }
+    return own;
 }
 
 }  // namespace
@@ -85,9 +92,10 @@ std::vector<std::string> enclosed_lamp_notes(const Scene& scene) {
     std::vector<std::string> notes;
     std::vector<Solid> solids;
     for (const SceneLight& light : scene.lights) {
-        if (!has_place(light.light.kind) || light.shadow.method == ShadowMethod::none) continue;
+        if (is_parallel(light.light.kind) || light.shadow.method == ShadowMethod::none) continue;
         if (solids.empty()) solids = solids_of(scene.mesh);
-        const std::uint32_t object = object_around(scene.mesh, solids, light.light.position);
+        const std::uint32_t object =
+            object_around(scene.mesh, solids, own_objects(scene, light.light), light.light.position);
         if (object == no_object) continue;
         notes.push_back(fmt::format(
             "light '{}' is inside the solid '{}' and lights nothing outside of it; casts_shadow = false of "

@@ -43,6 +43,15 @@ TEST(EnclosedLamps, AreTold) {
     EXPECT_EQ(notes_of(hall + crate + lamp("[0, 3, 0]")).size(), 1u);
 }
 
+TEST(EnclosedLamps, ThatAreSurfacesAreNotInThemselves) {
+    const std::string bulb =
+        "[[mesh]]\nid = \"bulb\"\nshape = \"sphere\"\nradius_m = 0.1\nmaterial = \"hot\"\n"
+        "[material.hot]\nemission_w_m2_sr = 5\n"
+        "[[light]]\nid = \"lamp\"\ntype = \"surface\"\nmaterial = \"hot\"\n";
+    EXPECT_EQ(notes_of(bulb), LampNotes{});
+    EXPECT_EQ(notes_of(crate + bulb), in_crate);
+}
+
 TEST(EnclosedLamps, AreNotThoseInTheOpenAtWallsOrWithoutShadows) {
     EXPECT_EQ(notes_of(crate + lamp("[0, 1.01, 0]")), LampNotes{});
     for (const char* on : {"[0, 1, 0]", "[1, 0.3, 0]", "[-1, -1, 0]", "[1, 1, 1]"})
