@@ -1,7 +1,7 @@
 #pragma once
 // Signals that end a process (SIGHUP, SIGINT, SIGTERM, SIGXCPU, ...): the first asks the work to stop at its
-// next tile, the second, or a second of time, ends the process at once with the code of the first. Either way, and
-// after faults (SIGSEGV, SIGABRT, ...), no half-written file stays behind.
+// next tile; the second ends the process at once with the code of the first, and so does a second of waiting.
+// Either way, and after faults (SIGSEGV, SIGABRT, ...), no half-written file stays behind.
 
 #include <atomic>
 #include <stdexcept>
@@ -10,7 +10,7 @@ namespace obscura {
 
 enum class OnSignal {
     exit_at_once,  ///< remove temporaries, exit with 128 + n
-    ask_to_stop,   ///< set the flag; a second signal exits at once, and so does time
+    ask_to_stop,   ///< set the flag; another signal exits at once, as does a second of waiting
 };
 
 /// Installs the handlers where a signal still has its default, ignores SIGPIPE and SIGXFSZ (a closed pipe and
