@@ -25,6 +25,18 @@ std::string names() {
     return out;
 }
 
+/// A name as a shell takes it for one word.
+std::string quoted(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./+-") ==
+        std::string::npos)
+        return name;
+    std::string out = "'";
+    for (const char c : name)
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
 }  // namespace
 
 std::span<const Starter> starters() {
@@ -42,12 +54,13 @@ int new_command(const NewOptions& options) {
                                      hint(options.kind, kinds)));
     }
     std::filesystem::path file = options.file;
-    if (!file.has_extension()) file += ".toml";
+    if (!file.has_filename()) throw UsageError(fmt::format("'{}' is no name of a file", file.string()));
+    if (file.extension() != ".toml") file += ".toml";
     write_file_atomically(file, starter->text, options.existing);
     std::filesystem::path picture = file;
     picture.replace_extension(".png");
     say(fmt::format("written: {}\nrender it: obscura {} {} -o {}\n", file.string(),
-                    starter->stereo ? "stereo" : "render", file.string(), picture.string()));
+                    starter->stereo ? "stereo" : "render", quoted(file), quoted(picture)));
     return 0;
 }
 
@@ -58,7 +71,7 @@ int run_new(const Arguments& arguments) {
     NewOptions options;
     std::string file;
     bool overwrite = false;
-    flags.positional("FILE", file, "The scene file to be written; .toml is added where it has no ending.");
+    flags.positional("FILE", file, "The scene file to be written; .toml is added where it does not end so.");
     flags.group("Scene");
     flags.text("--kind", "NAME", options.kind, names() + ".", "place");
     flags.group("Output");

@@ -22,7 +22,7 @@ struct Starter {
 std::span<const Starter> starters();
 
 struct NewOptions {
-    std::filesystem::path file;  ///< ".toml" is added where it has no ending
+    std::filesystem::path file;  ///< ".toml" is added where it does not end so
     std::string kind = "place";
     Existing existing = Existing::refuse;
 };

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <unordered_map>
 
 #include "core/polygon.h"
 
@@ -14,18 +15,36 @@ namespace {
 
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Vertices by the corner they stand for: one chain per position, in order of first use.
+struct CornerHash {
+    std::size_t operator()(const FaceCorner& c) const {
+        const std::uint64_t h = (static_cast<std::uint64_t>(c.position) * 0x9e3779b97f4a7c15u) ^
+                                (static_cast<std::uint64_t>(c.uv) * 0xc2b2ae3d27d4eb4fu) ^
+                                (static_cast<std::uint64_t>(c.normal) * 0x165667b19e3779f9u);
+        return static_cast<std::size_t>(h ^ h >> 29);
+    }
+};
+
+/// Vertices by the corner they stand for: one chain per position, in order of first use. Where many meet in
+/// one position, those behind the first few are hashed.
 class VertexTable {
   public:
     explicit VertexTable(std::size_t positions) : head_(positions, none) {}
 
     std::uint32_t find_or_add(const FaceCorner& corner) {
         std::uint32_t* link = &head_[static_cast<std::size_t>(corner.position)];
-        while (*link != none) {
+        int length = 0;
+        for (; *link != none && length < most_in_chain; ++length) {
             if (corners[*link] == corner) return *link;
             link = &next_[*link];
         }
         const auto vertex = static_cast<std::uint32_t>(corners.size());
+        if (length == most_in_chain) {
+            const auto [at, is_new] = crowded_.try_emplace(corner, vertex);
+            if (!is_new) return at->second;
+            corners.push_back(corner);
+            next_.push_back(none);
+            return vertex;
+        }
         *link = vertex;  // before next_ grows and moves
         corners.push_back(corner);
         next_.push_back(none);
@@ -35,7 +54,9 @@ class VertexTable {
     std::vector<FaceCorner> corners;
 
   private:
+    static constexpr int most_in_chain = 32;
     std::vector<std::uint32_t> head_, next_;
+    std::unordered_map<FaceCorner, std::uint32_t, CornerHash> crowded_;
 };
 
 /// Objects that own faces, in the order of the file.
@@ -179,6 +200,14 @@ void note_mesh(const FacesMesh& mesh, const std::string& file, std::vector<std::
             "{}: {} of {} triangles collapse: the file reaches too far for its details in single precision",
             file, mesh.merged, mesh.mesh.triangles.size()));
     }
+}
+
+void keep_few(std::vector<std::string>& notes, const std::string& file) {
+    constexpr std::size_t few = 40;
+    if (notes.size() <= few) return;
+    const std::size_t more = notes.size() - few;
+    notes.resize(few);
+    notes.push_back(fmt::format("{}: {} more kinds of things are not read", file, more));
 }
 
 Model model_of_faces(const IndexedFaces& faces, const std::string& file, double crease_angle_deg) {

@@ -39,6 +39,9 @@ FacesMesh build_faces_mesh(const IndexedFaces& text, const std::string& name, do
 /// none, is called as `file` is without its ending; notes tell when there are no triangles, or some collapse.
 Model model_of_faces(const IndexedFaces& faces, const std::string& file, double crease_angle_deg);
 
+/// Leaves the first forty notes, and how many more there were.
+void keep_few(std::vector<std::string>& notes, const std::string& file);
+
 /// The notes of a mesh without triangles, and of triangles that collapse.
 void note_mesh(const FacesMesh& mesh, const std::string& file, std::vector<std::string>& notes);
 

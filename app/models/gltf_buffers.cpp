@@ -39,6 +39,13 @@ int hex_digit(char c) {
 
 }  // namespace
 
+void check_held(std::int64_t bytes, const char* what, const Limits& limits, const std::string& file) {
+    const std::int64_t most = limits.memory_mib * (1024 * 1024 / 8);
+    if (bytes > most)
+        throw LimitError(fmt::format("{}: its {} take more than {} bytes, an eighth of limits.memory_mib",
+                                     file, what, most));
+}
+
 GltfParts gltf_parts(std::string_view bytes, const std::string& file) {
     if (bytes.size() < 4 || value_at<std::uint32_t>(bytes, 0) != magic) return {bytes, {}};
     const auto fail = [&](const std::string& message) { throw InputError(file, message); };
@@ -109,8 +116,9 @@ std::string percent_decoded(std::string_view uri) {
 }
 
 GltfBuffers::GltfBuffers(const GltfDocument& document, const GltfParts& parts, const std::string& file,
-                         const std::function<std::string(const std::string&)>& read)
-    : document_(document), held_(document.buffers.size()), buffers_(document.buffers.size()) {
+                         const Limits& limits, const std::function<std::string(const std::string&)>& read)
+    : document_(document), buffers_(document.buffers.size()) {
+    std::int64_t held_bytes = 0;
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
         const GltfBuffer& b = document.buffers[i];
         const std::string where = fmt::format("buffers[{}]", i);
@@ -118,10 +126,15 @@ GltfBuffers::GltfBuffers(const GltfDocument& document, const GltfParts& parts, c
             if (i != 0) throw InputError(file, where + ": only the first may be the file's own");
             buffers_[i] = parts.binary;
         } else {
-            bool is_data = false;
-            held_[i] = data_of_uri(b.uri, file, where, is_data);
-            if (!is_data) held_[i] = read(percent_decoded(b.uri));
-            buffers_[i] = held_[i];
+            const auto [at, is_new] = held_.try_emplace(b.uri);
+            if (is_new) {
+                bool is_data = false;
+                at->second = data_of_uri(b.uri, file, where, is_data);
+                if (!is_data) at->second = read(percent_decoded(b.uri));
+                held_bytes += static_cast<std::int64_t>(at->second.size());
+                check_held(held_bytes, "buffers", limits, file);
+            }
+            buffers_[i] = at->second;
         }
         if (static_cast<std::int64_t>(buffers_[i].size()) < b.bytes) {
             throw InputError(file, fmt::format("{}: has {} bytes, not the {} that it says", where,

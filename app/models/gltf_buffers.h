@@ -2,11 +2,13 @@
 // The bytes of a glTF file: its two parts, its buffers, and numbers in them.
 
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/models/gltf_document.h"
+#include "core/limits.h"
 
 namespace obscura {
 
@@ -14,6 +16,9 @@ namespace obscura {
 struct GltfParts {
     std::string_view json, binary;
 };
+
+/// Throws LimitError when `bytes` is more than an eighth of limits.memory_mib.
+void check_held(std::int64_t bytes, const char* what, const Limits& limits, const std::string& file);
 
 /// Throws InputError for a .glb that is cut, or has other chunks than it should.
 GltfParts gltf_parts(std::string_view bytes, const std::string& file);
@@ -27,9 +32,10 @@ std::string percent_decoded(std::string_view uri);
 
 class GltfBuffers {
   public:
-    /// `read(uri)`: a file that a buffer names. Throws InputError for buffers that are shorter than they say.
+    /// `read(uri)`: a file that a buffer names. Throws InputError for buffers that are shorter than they say,
+    /// LimitError when all together take more than an eighth of limits.memory_mib.
     GltfBuffers(const GltfDocument& document, const GltfParts& parts, const std::string& file,
-                const std::function<std::string(const std::string&)>& read);
+                const Limits& limits, const std::function<std::string(const std::string&)>& read);
 
     std::string_view view(GltfIndex view) const;
 
@@ -39,7 +45,7 @@ class GltfBuffers {
 
   private:
     const GltfDocument& document_;
-    std::vector<std::string> held_;
+    std::map<std::string, std::string> held_;  ///< by URI
     std::vector<std::string_view> buffers_;
 };
 

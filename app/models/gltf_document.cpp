@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "app/models/json_place.h"
 #include "app/models/text_lines.h"
@@ -154,7 +155,13 @@ class Reader {
         }
         for (const JsonPlace& p : root_.list("textures")) {
             textures_.push_back(p.index("source", out_.images.size()));
+            if (textures_.back() < 0) ++out_.ignored["textures without a source"];
             ignore_extensions(p, "textures");
+            const GltfIndex sampler = p.index("sampler", root_.size("samplers"));
+            if (sampler < 0) continue;
+            const JsonPlace s = root_.list("samplers")[static_cast<std::size_t>(sampler)];
+            for (const char* axis : {"wrapS", "wrapT"})
+                if (s.integer(axis, 10497) != 10497) ++out_.ignored[fmt::format("{} of textures", axis)];
         }
     }
 
@@ -175,7 +182,11 @@ class Reader {
                     m.texture_set = static_cast<int>(std::min<std::int64_t>(t.integer("texCoord", 0), 1000));
                     ignore_extensions(t, "textures");
                 }
-                ignore(pbr, {"metallicRoughnessTexture"}, "materials");
+                if (pbr.has("metallicRoughnessTexture")) {
+                    // Its factors are all there is to take away from: most of them are 1.
+                    m.metallic = 0;
+                    ++out_.ignored["metallicRoughnessTexture of materials, which are no metal then,"];
+                }
             }
             m.emission = p.numbers<3>("emissiveFactor", m.emission);
             if (p.has("extensions") && p.at("extensions").has("KHR_materials_emissive_strength")) {
@@ -185,11 +196,16 @@ class Reader {
                 for (double& e : m.emission)
                     e *= strength;
             }
+            if (p.has("emissiveTexture")) {
+                // Most of it is black as a rule.
+                m.emission = {};
+                ++out_.ignored["emissiveTexture of materials, which do not shine then,"];
+            }
             for (const double v : m.base_color)
                 if (!(v >= 0 && v <= 1)) p.fail("baseColorFactor is not within 0 to 1");
             for (const double v : m.emission)
-                if (!(v >= 0)) p.fail("emissiveFactor is below 0");
-            ignore(p, {"normalTexture", "occlusionTexture", "emissiveTexture"}, "materials");
+                if (!(v >= 0 && v <= 1e9)) p.fail("emission is not within 0 to 1e9");
+            ignore(p, {"normalTexture", "occlusionTexture"}, "materials");
             const std::string alpha = p.text("alphaMode");
             if (!alpha.empty() && alpha != "OPAQUE")
                 ++out_.ignored[fmt::format("alphaMode {} of materials", shown(alpha))];
@@ -223,6 +239,10 @@ class Reader {
         const JsonPlace attributes = p.at("attributes");
         out.positions = attribute(attributes, "POSITION", 3);
         if (out.positions < 0) attributes.fail("'POSITION' is missing");
+        for (const GltfIndex i : {out.positions, out.indices}) {
+            if (i >= 0 && out_.accessors[static_cast<std::size_t>(i)].view < 0)
+                p.fail(fmt::format("accessor {} has no bufferView", i));
+        }
         out.normals = attribute(attributes, "NORMAL", 3);
         for (int set = 0;; ++set) {
             const std::string name = fmt::format("TEXCOORD_{}", set);
@@ -238,8 +258,8 @@ class Reader {
         for (const GltfIndex i : out.texture_coordinates)
             check(i);
         for (const std::string& name : attributes.keys())
-            if (name.starts_with("COLOR_") || name.starts_with("JOINTS_"))
-                ++out_.ignored[name + " of meshes"];
+            if (name != "POSITION" && name != "NORMAL" && name != "TANGENT" && !name.starts_with("TEXCOORD_"))
+                ++out_.ignored[shown(name) + " of meshes"];
         ignore(p, {"targets"}, "meshes");
         ignore_extensions(p, "meshes");
         return out;
@@ -254,6 +274,21 @@ class Reader {
                 mesh.primitives.push_back(primitive(part));
             out_.meshes.push_back(std::move(mesh));
         }
+    }
+
+    /// Every node must hang on one that has no parent: else some go round in a ring.
+    void check_trees(const std::vector<bool>& has_parent) const {
+        std::vector<GltfIndex> open;
+        for (std::size_t i = 0; i < has_parent.size(); ++i)
+            if (!has_parent[i]) open.push_back(static_cast<GltfIndex>(i));
+        std::size_t reached = 0;
+        while (!open.empty()) {
+            const auto node = static_cast<std::size_t>(open.back());
+            open.pop_back();
+            ++reached;
+            open.insert(open.end(), out_.nodes[node].children.begin(), out_.nodes[node].children.end());
+        }
+        if (reached < has_parent.size()) root_.fail("nodes: some are their own descendants");
     }
 
     void read_nodes() {
@@ -280,12 +315,15 @@ class Reader {
             ignore_extensions(p, "nodes");
             out_.nodes.push_back(std::move(node));
         }
+        check_trees(has_parent);
+        std::set<GltfIndex> roots;
         if (root_.size("scenes") > 0) {
             const GltfIndex shown_scene = std::max(root_.index("scene", root_.size("scenes")), GltfIndex{0});
             for (const JsonPlace& p :
                  root_.list("scenes")[static_cast<std::size_t>(shown_scene)].list("nodes")) {
                 const GltfIndex i = node_of(p);
                 if (has_parent[static_cast<std::size_t>(i)]) p.fail(fmt::format("node {} is no root", i));
+                if (!roots.insert(i).second) p.fail(fmt::format("node {} stands there twice", i));
                 out_.roots.push_back(i);
             }
             if (root_.size("scenes") > 1)

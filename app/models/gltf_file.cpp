@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -58,11 +59,33 @@ struct NormalMap {
     }
 };
 
+/// Names that are shown in messages and chosen in scenes: all different, without control characters.
+class UniqueNames {
+  public:
+    std::string unique(std::string name) {
+        for (char& c : name)
+            if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+        const std::string stem = name;
+        while (!taken_.insert(name).second)
+            name = fmt::format("{}_{}", stem, ++last_.try_emplace(stem, 1).first->second);
+        return name;
+    }
+
+  private:
+    std::set<std::string> taken_;
+    std::map<std::string, int> last_;  ///< number given to a stem
+};
+
 class Reader {
   public:
     Reader(const GltfDocument& document, const GltfBuffers& buffers, const std::string& file,
            const Limits& limits)
-        : document_(document), buffers_(buffers), file_(file), limits_(limits) {}
+        : is_used(document.materials.size()),
+          document_(document),
+          buffers_(buffers),
+          file_(file),
+          limits_(limits),
+          drawn_(document.meshes.size()) {}
 
     IndexedFaces run() {
         for (std::size_t i = 0; i < document_.materials.size(); ++i)
@@ -86,19 +109,42 @@ class Reader {
         return std::move(out_);
     }
 
-    int skipped_primitives = 0;  ///< of points and lines
+    std::int64_t skipped_primitives = 0;  ///< of points and lines, of meshes that are shown
     bool any_without_material = false;
+    std::vector<bool> is_used;  ///< material by material
 
   private:
+    /// Primitives of a mesh that have triangles.
+    const std::vector<std::size_t>& drawn(GltfIndex mesh) {
+        auto& known = drawn_[static_cast<std::size_t>(mesh)];
+        if (known) return *known;
+        known.emplace();
+        const auto& primitives = document_.meshes[static_cast<std::size_t>(mesh)].primitives;
+        for (std::size_t k = 0; k < primitives.size(); ++k) {
+            const GltfPrimitive& p = primitives[k];
+            if (p.mode != GltfMode::triangles && p.mode != GltfMode::triangle_strip &&
+                p.mode != GltfMode::triangle_fan) {
+                ++skipped_primitives;
+            } else if (accessor(p.indices >= 0 ? p.indices : p.positions).count >= 3) {
+                known->push_back(k);
+            } else if (p.mode == GltfMode::triangles &&
+                       accessor(p.indices >= 0 ? p.indices : p.positions).count > 0) {
+                known->push_back(k);
+            }
+        }
+        return *known;
+    }
+
     void add_mesh(const GltfNode& node, GltfIndex index, const GltfMatrix& world) {
         const GltfMesh& mesh = document_.meshes[static_cast<std::size_t>(node.mesh)];
+        if (drawn(node.mesh).empty()) return;
         const auto object = static_cast<std::int32_t>(out_.object_names.size());
-        out_.object_names.push_back({!node.name.empty()   ? node.name
-                                     : !mesh.name.empty() ? mesh.name
-                                                          : fmt::format("node_{}", index),
+        out_.object_names.push_back({objects_.unique(!node.name.empty()   ? node.name
+                                                     : !mesh.name.empty() ? mesh.name
+                                                                          : fmt::format("node_{}", index)),
                                      0});
         points_.forget();
-        for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
+        for (const std::size_t k : drawn(node.mesh)) {
             const std::string where =
                 fmt::format("nodes[{}], meshes[{}].primitives[{}]", index, node.mesh, k);
             add_primitive(mesh.primitives[k], world, object, where);
@@ -120,11 +166,6 @@ class Reader {
 
     void add_primitive(const GltfPrimitive& p, const GltfMatrix& world, std::int32_t object,
                        const std::string& where) {
-        if (p.mode != GltfMode::triangles && p.mode != GltfMode::triangle_strip &&
-            p.mode != GltfMode::triangle_fan) {
-            ++skipped_primitives;
-            return;
-        }
         const GltfAccessor& positions = accessor(p.positions);
         const std::int64_t vertices = positions.count,
                            corners = p.indices >= 0 ? accessor(p.indices).count : vertices;
@@ -134,7 +175,7 @@ class Reader {
             p.mode == GltfMode::triangles ? corners / 3 : std::max<std::int64_t>(corners - 2, 0);
         out_.triangles += triangles;
         vertices_ += vertices;
-        if (out_.triangles > limits_.triangles || vertices_ > 3 * limits_.triangles) {
+        if (out_.triangles > most_triangles(limits_) || vertices_ > most_vertices(limits_)) {
             throw LimitError(fmt::format(
                 "{}: has more than limits.triangles = {} triangles, or three times as many vertices", file_,
                 limits_.triangles));
@@ -152,6 +193,7 @@ class Reader {
             return first + static_cast<std::int32_t>(v);
         };
         any_without_material |= p.material < 0;
+        if (p.material >= 0) is_used[static_cast<std::size_t>(p.material)] = true;
         for (std::int64_t t = 0; t < triangles; ++t) {
             std::array<std::int64_t, 3> c = {3 * t, 3 * t + 1, 3 * t + 2};
             // Of a strip every second triangle turns the other way.
@@ -163,6 +205,8 @@ class Reader {
             face.corner_count = 3;
             face.material = p.material;
             face.object = object;
+            // Where the file has no normals, its triangles are flat.
+            face.smoothing = smooth_none;
             for (const std::int64_t corner : c)
                 out_.corners.push_back(place_[static_cast<std::size_t>(vertex(corner))]);
             out_.faces.push_back(face);
@@ -205,57 +249,94 @@ class Reader {
     const GltfBuffers& buffers_;
     const std::string& file_;
     const Limits& limits_;
+    std::vector<std::optional<std::vector<std::size_t>>> drawn_;
+    UniqueNames objects_;
     PointIndex points_;
     std::vector<FaceCorner> place_;  ///< of all vertices so far
     std::int64_t vertices_ = 0;
     IndexedFaces out_;
 };
 
-/// Materials by names that are all different.
-void name_materials(GltfDocument& document) {
-    std::set<std::string> taken;
+/// Materials by names that are all different; `with_default`: some faces have none, and so that name is
+/// taken.
+void name_materials(bool with_default, GltfDocument& document) {
+    UniqueNames names;
+    if (with_default) names.unique("default");
     for (std::size_t i = 0; i < document.materials.size(); ++i) {
         std::string& name = document.materials[i].name;
-        if (name.empty()) name = fmt::format("material_{}", i);
-        const std::string stem = name;
-        for (int n = 2; !taken.insert(name).second; ++n)
-            name = fmt::format("{}_{}", stem, n);
+        name = names.unique(name.empty() ? fmt::format("material_{}", i) : name);
     }
 }
 
-struct ImageSource {
-    const GltfDocument& document;
-    const GltfBuffers& buffers;
-    const std::string& file;
-    const std::function<std::string(const std::string&)>& read;
+/// Pictures of materials, each read once.
+class ImageReader {
+  public:
+    ImageReader(const GltfDocument& document, const GltfBuffers& buffers, const std::string& file,
+                const Limits& limits, const ModelOptions& options,
+                const std::function<std::string(const std::string&)>& read, Model& model)
+        : document_(document),
+          buffers_(buffers),
+          file_(file),
+          limits_(limits),
+          options_(options),
+          read_(read),
+          model_(model),
+          known_(document.images.size()) {}
+
+    /// Index of the texture that holds an image; -1, and a note, for one that is no PNG or may be missing.
+    std::int32_t texture_of(GltfIndex index) {
+        auto& at = known_[static_cast<std::size_t>(index)];
+        if (at) return *at;
+        const std::string where = fmt::format("images[{}]", index);
+        std::string bytes;
+        try {
+            bytes = bytes_of(document_.images[static_cast<std::size_t>(index)], where);
+        } catch (const MissingFile& error) {
+            if (!options_.allow_missing && options_.textures) {
+                throw InputError(
+                    file_, fmt::format("{}: {} (--allow-missing reads on without it)", where, error.message));
+            }
+            model_.missing.push_back(fmt::format("{}: {}: {}", file_, where, error.message));
+            return *(at = -1);
+        }
+        if (!bytes.starts_with("\x89PNG")) {
+            model_.notes.push_back(fmt::format(
+                "{}: {} is no PNG and is not read; its materials show their colour alone", file_, where));
+            return *(at = -1);
+        }
+        held_ += static_cast<std::int64_t>(bytes.size());
+        check_held(held_, "images", limits_, file_);
+        at = static_cast<std::int32_t>(model_.texture_files.size());
+        model_.texture_files.push_back(fmt::format("{}#{}", file_, where));
+        model_.texture_bytes.push_back(std::move(bytes));
+        return *at;
+    }
+
+  private:
+    std::string bytes_of(const GltfImage& image, const std::string& where) const {
+        if (image.view >= 0) return std::string(buffers_.view(image.view));
+        bool is_data = false;
+        std::string bytes = data_of_uri(image.uri, file_, where, is_data);
+        return is_data ? bytes : read_(percent_decoded(image.uri));
+    }
+
+    const GltfDocument& document_;
+    const GltfBuffers& buffers_;
+    const std::string& file_;
+    const Limits& limits_;
+    const ModelOptions& options_;
+    const std::function<std::string(const std::string&)>& read_;
+    Model& model_;
+    std::vector<std::optional<std::int32_t>> known_;
+    std::int64_t held_ = 0;
 };
 
-/// Index of the texture that holds an image; -1, and a note, for one that is no PNG.
-std::int32_t texture_of(const ImageSource& from, GltfIndex index, std::vector<std::int32_t>& known,
-                        Model& model) {
-    std::int32_t& at = known[static_cast<std::size_t>(index)];
-    if (at != -2) return at;
-    const GltfImage& image = from.document.images[static_cast<std::size_t>(index)];
-    const std::string where = fmt::format("images[{}]", index);
-    bool is_data = false;
-    std::string bytes = image.view >= 0 ? std::string(from.buffers.view(image.view))
-                                        : data_of_uri(image.uri, from.file, where, is_data);
-    if (image.view < 0 && !is_data) bytes = from.read(percent_decoded(image.uri));
-    if (!bytes.starts_with("\x89PNG")) {
-        model.notes.push_back(fmt::format(
-            "{}: {} is no PNG and is not read; its materials show their colour alone", from.file, where));
-        return at = -1;
-    }
-    at = static_cast<std::int32_t>(model.texture_files.size());
-    model.texture_files.push_back(fmt::format("{}#{}", from.file, where));
-    model.texture_bytes.push_back(std::move(bytes));
-    return at;
-}
-
-void add_materials(const ImageSource& from, const ModelOptions& options, bool with_default, Model& model) {
+/// `is_used`: material by material; what none shows is not asked for its texture.
+void add_materials(const GltfDocument& document, const std::vector<bool>& is_used, bool with_default,
+                   const ModelOptions& options, ImageReader& images, Model& model) {
     model.materials.clear();
-    std::vector<std::int32_t> textures(from.document.images.size(), -2);
-    for (const GltfMaterial& m : from.document.materials) {
+    for (std::size_t i = 0; i < document.materials.size(); ++i) {
+        const GltfMaterial& m = document.materials[i];
         Material out;
         out.name = m.name;
         const auto& c = m.base_color;
@@ -265,8 +346,7 @@ void add_materials(const ImageSource& from, const ModelOptions& options, bool wi
         out.emission = to_float(Vec3d{m.emission[0], m.emission[1], m.emission[2]});
         const bool replaced =
             std::find(options.replaced.begin(), options.replaced.end(), m.name) != options.replaced.end();
-        if (m.image >= 0 && options.textures && !replaced)
-            out.texture = texture_of(from, m.image, textures, model);
+        if (m.image >= 0 && is_used[i] && !replaced) out.texture = images.texture_of(m.image);
         model.materials.push_back(std::move(out));
     }
     if (with_default || model.materials.empty()) model.materials.push_back(Material{.name = "default"});
@@ -282,19 +362,23 @@ Model gltf_from_bytes(std::string_view bytes, const std::string& file, const Lim
         throw InputError(
             file, fmt::format("its JSON has {} bytes, more than {}", parts.json.size(), most_json_bytes));
     GltfDocument document = parse_gltf_json(parts.json, file);
-    name_materials(document);
-    const GltfBuffers buffers(document, parts, file, read);
+    const GltfBuffers buffers(document, parts, file, limits, read);
     Reader reader(document, buffers, file, limits);
     const IndexedFaces faces = reader.run();
     Model model = model_of_faces(faces, file, options.crease_angle_deg);
     if (options.materials) {
-        add_materials({document, buffers, file, read}, options, reader.any_without_material, model);
+        name_materials(reader.any_without_material, document);
+        ImageReader images(document, buffers, file, limits, options, read, model);
+        add_materials(document, reader.is_used, reader.any_without_material, options, images, model);
     } else {
         model.mesh.material.assign(model.mesh.triangles.size(), 0);
     }
-    if (reader.skipped_primitives > 0) document.ignored["points and lines"] = reader.skipped_primitives;
+    if (reader.skipped_primitives > 0)
+        model.notes.push_back(
+            fmt::format("{}: points and lines not read ({})", file, reader.skipped_primitives));
     for (const auto& [what, times] : document.ignored)
         model.notes.push_back(fmt::format("{}: {} not read ({})", file, what, times));
+    keep_few(model.notes, file);
     return model;
 }
 
@@ -303,6 +387,8 @@ Model load_gltf(const std::filesystem::path& file, const FileAccess& access, con
     const auto read = [&](const std::string& uri) {
         try {
             return read_model_bytes(resolve_beside(access, file.parent_path(), uri), limits);
+        } catch (const MissingFile& error) {
+            throw MissingFile(file.string(), fmt::format("{}: {}", shown(uri), error.message));
         } catch (const InputError& error) {
             throw InputError(file.string(), fmt::format("{}: {}", shown(uri), error.message));
         }

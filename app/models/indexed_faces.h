@@ -1,10 +1,13 @@
 #pragma once
 // What the readers of model files have in common: polygons whose corners are indices into lists.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/limits.h"
+#include "core/topology.h"
 #include "core/vec.h"
 
 namespace obscura {
@@ -19,7 +22,7 @@ struct IndexedFace {
     std::uint32_t first_corner = 0, corner_count = 0;  ///< 3 or more, in IndexedFaces::corners
     std::int32_t material = -1;                        ///< index into material_names, -1 where none is named
     std::int32_t object = -1;                          ///< index into object_names, -1 where none is named
-    std::uint32_t smoothing = 0;                       ///< as compute_normals() takes it
+    std::uint32_t smoothing = smooth_by_angle;         ///< as compute_normals() takes it
     std::int32_t line = 0;
 };
 
@@ -39,6 +42,15 @@ struct IndexedFaces {
     std::vector<NameInFile> object_names;    ///< each once
     std::int64_t triangles = 0;              ///< that the faces will be cut into
 };
+
+/// Triangles that a file may have: corners and vertices are counted in 32 bits. Of vertices three times as
+/// many, but no more than 2^31 - 1.
+inline std::int64_t most_triangles(const Limits& limits) {
+    return std::min<std::int64_t>(limits.triangles, 1'000'000'000);
+}
+inline std::int64_t most_vertices(const Limits& limits) {
+    return std::min<std::int64_t>(3 * most_triangles(limits), INT32_MAX);
+}
 
 /// Faces with more corners are refused: cutting them takes time that grows with the square.
 constexpr std::uint32_t most_face_corners = 10'000;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <string>
 
 #include "app/models/gltf_file.h"
@@ -22,17 +21,6 @@ std::string ending_of(const std::filesystem::path& file) {
     return ending;
 }
 
-/// The kind of file that begins so, as an ending; ".obj" where nothing tells.
-std::string kind_of_content(const std::filesystem::path& file) {
-    char head[6] = {};
-    std::ifstream(file, std::ios::binary).read(head, sizeof head - 1);
-    const std::string_view begin(head);
-    if (begin.starts_with("ply\n") || begin.starts_with("ply\r")) return ".ply";
-    if (begin.starts_with("solid")) return ".stl";
-    if (begin.starts_with("glTF")) return ".glb";
-    return ".obj";
-}
-
 }  // namespace
 
 Model load_model(const std::filesystem::path& file, const FileAccess& access, const Limits& limits,
@@ -44,11 +32,17 @@ Model load_model(const std::filesystem::path& file, const FileAccess& access, co
             throw InputError(file.string(),
                              fmt::format("{} files are not read; OBJ, glTF, PLY and STL are", other));
     }
-    if (kind != ".obj" && kind != ".ply" && kind != ".stl" && kind != ".gltf" && kind != ".glb")
-        kind = kind_of_content(file);
     if (kind == ".gltf" || kind == ".glb") return load_gltf(file, access, limits, options);
     if (kind == ".ply") return load_ply(file, limits, options);
     if (kind == ".stl") return load_stl(file, limits, options);
+    if (kind != ".obj") {
+        // By how it begins.
+        const std::string bytes = read_model_bytes(file, limits);
+        if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r"))
+            return ply_from_bytes(bytes, file.string(), limits, options);
+        if (bytes.starts_with("solid")) return stl_from_bytes(bytes, file.string(), limits, options);
+        if (bytes.starts_with("glTF")) return load_gltf(file, access, limits, options);
+    }
     return load_obj(file, access, limits, options);
 }
 

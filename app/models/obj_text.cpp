@@ -41,9 +41,7 @@ struct NameList {
 class Parser {
   public:
     Parser(std::string_view text, const std::string& file, const Limits& limits)
-        : lines_(text),
-          file_(file),
-          most_triangles_(std::min<std::int64_t>(limits.triangles, 1'000'000'000)) {}
+        : lines_(text), file_(file), most_triangles_(most_triangles(limits)) {}
 
     ObjText run() {
         while (lines_.next()) {

@@ -80,6 +80,7 @@ class ValueReader {
             next_bytes(type);
     }
 
+    bool words_left() const { return body_.find_first_not_of(" \t\r\n") != std::string_view::npos; }
     std::size_t bytes_left() const { return body_.size(); }
 
     [[noreturn]] void fail(const std::string& message) const {
@@ -181,10 +182,14 @@ class PlyReader {
             }
         }
         check_indices();
+        for (const std::string& texture : header_.textures)
+            notes.push_back(fmt::format("{}: texture '{}' of a comment is not read", file_, shown(texture)));
         if (header_.format != PlyFormat::ascii && values_.bytes_left() > 0) {
             notes.push_back(fmt::format("{}: {} after the last element are not read", file_,
                                         count_text(values_.bytes_left(), "byte")));
         }
+        if (header_.format == PlyFormat::ascii && values_.words_left())
+            notes.push_back(fmt::format("{}: lines after the last element are not read", file_));
         return std::move(out_);
     }
 
@@ -225,20 +230,27 @@ class PlyReader {
     }
 
     void read_vertices(const PlyElement& element) {
-        if (element.count > 3 * limits_.triangles) {
+        if (element.count > most_vertices(limits_)) {
             throw LimitError(fmt::format("{}: has {} vertices, more than three times limits.triangles = {}",
                                          file_, element.count, limits_.triangles));
         }
         bool has[vertex_parts] = {};
+        for (const PlyProperty& p : element.properties)
+            if (part_of(p) != VertexPart::other) has[static_cast<int>(part_of(p))] = true;
+        const bool normals = has[3] && has[4] && has[5], uvs = has[6] && has[7];
         std::vector<VertexPart> parts;
+        bool seen[vertex_parts] = {};
         for (const PlyProperty& p : element.properties) {
             VertexPart part = part_of(p);
-            // Of two names for one thing the first counts.
-            if (part != VertexPart::other && has[static_cast<int>(part)]) part = VertexPart::other;
+            const int k = static_cast<int>(part);
+            // Of two names for one thing the first counts; of a normal or a place in a texture all or
+            // nothing.
+            if (part != VertexPart::other && (seen[k] || (k >= 3 && k < 6 && !normals) || (k >= 6 && !uvs)))
+                part = VertexPart::other;
             if (part == VertexPart::other)
                 note_property(element, p);
             else
-                has[static_cast<int>(part)] = true;
+                seen[k] = true;
             parts.push_back(part);
         }
         for (int k = 0; k < 3; ++k) {
@@ -247,7 +259,6 @@ class PlyReader {
                                  fmt::format("vertices have no property '{}'", "xyz"[k]));
             }
         }
-        const bool normals = has[3] && has[4] && has[5], uvs = has[6] && has[7];
         for (std::int64_t row = 0; row < element.count; ++row) {
             values_.begin_row(element, row);
             double value[vertex_parts + 1] = {};
@@ -301,7 +312,7 @@ class PlyReader {
         if (corners > most_face_corners)
             values_.fail(fmt::format("a face of more than {} corners", most_face_corners));
         out_.triangles += corners - 2;
-        if (out_.triangles > limits_.triangles) {
+        if (out_.triangles > most_triangles(limits_)) {
             throw LimitError(
                 fmt::format("{}: has more than limits.triangles = {} triangles", file_, limits_.triangles));
         }
@@ -351,6 +362,7 @@ Model ply_from_bytes(std::string_view bytes, const std::string& file, const Limi
     const IndexedFaces faces = reader.run();
     Model model = model_of_faces(faces, file, options.crease_angle_deg);
     model.notes.insert(model.notes.begin(), reader.notes.begin(), reader.notes.end());
+    keep_few(model.notes, file);
     return model;
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
-#include <optional>
+#include <set>
 
 #include "app/models/text_lines.h"
 #include "core/error.h"
@@ -35,6 +35,7 @@ class HeaderReader {
             std::string_view rest = next_line();
             const std::string_view word = take(rest);
             if (word == "end_header") break;
+            if (word == "comment" && take(rest) == "TextureFile") out_.textures.emplace_back(trimmed(rest));
             if (word == "comment" || word == "obj_info" || word.empty()) continue;
             if (word == "element") {
                 read_element(rest);
@@ -56,10 +57,16 @@ class HeaderReader {
     /// Lines end with LF, CRLF or CR.
     std::string_view next_line() {
         ++line_;
-        const std::size_t end = bytes_.find_first_of("\r\n", at_);
+        // A file ends its lines as it ends the first, so that what follows may begin with any byte.
+        if (line_ == 1) {
+            const std::size_t first = bytes_.find_first_of("\r\n");
+            if (first == std::string_view::npos) fail("ends within its header");
+            ending_ = bytes_.substr(first, bytes_.substr(first, 2) == "\r\n" ? 2 : 1);
+        }
+        const std::size_t end = bytes_.find(ending_, at_);
         if (end == std::string_view::npos) fail("ends within its header");
         const std::string_view line = bytes_.substr(at_, end - at_);
-        at_ = end + (bytes_.substr(end, 2) == "\r\n" ? 2 : 1);
+        at_ = end + ending_.size();
         return trimmed(line);
     }
 
@@ -104,8 +111,9 @@ class HeaderReader {
         if (error != std::errc{} || end != count.data() + count.size() || element.count < 0)
             fail(fmt::format("'{}' is no number of elements", shown(count)));
         expect_end(rest);
-        for (const PlyElement& other : out_.elements)
-            if (other.name == element.name) fail(fmt::format("a second element '{}'", shown(element.name)));
+        if (!elements_.insert(element.name).second)
+            fail(fmt::format("a second element '{}'", shown(element.name)));
+        properties_.clear();
         out_.elements.push_back(std::move(element));
     }
 
@@ -130,11 +138,8 @@ class HeaderReader {
         p.name = take(rest);
         if (p.name.empty()) fail("a property without a name");
         expect_end(rest);
-        auto& properties = out_.elements.back().properties;
-        if (std::any_of(properties.begin(), properties.end(),
-                        [&](const PlyProperty& other) { return other.name == p.name; }))
-            fail(fmt::format("a second property '{}'", shown(p.name)));
-        properties.push_back(std::move(p));
+        if (!properties_.insert(p.name).second) fail(fmt::format("a second property '{}'", shown(p.name)));
+        out_.elements.back().properties.push_back(std::move(p));
     }
 
     void check_lengths() const {
@@ -158,8 +163,10 @@ class HeaderReader {
 
     std::string_view bytes_;
     const std::string& file_;
+    std::string_view ending_;
     std::size_t at_ = 0;
     int line_ = 0;
+    std::set<std::string> elements_, properties_;
     PlyHeader out_;
 };
 

@@ -35,9 +35,10 @@ struct PlyElement {
 
 struct PlyHeader {
     PlyFormat format = PlyFormat::ascii;
-    std::vector<PlyElement> elements;  ///< in the order in which they follow
-    std::size_t body = 0;              ///< byte at which they begin
-    int lines = 0;                     ///< of the header
+    std::vector<PlyElement> elements;   ///< in the order in which they follow
+    std::vector<std::string> textures;  ///< that comments name
+    std::size_t body = 0;               ///< byte at which they begin
+    int lines = 0;                      ///< of the header
 };
 
 /// `file` names it in messages. Throws InputError with the line for anything that is not a sound header, and

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 
 #include "app/models/faces_mesh.h"
 #include "app/models/file_access.h"
@@ -27,7 +29,7 @@ class StlFaces {
     StlFaces(const std::string& file, const Limits& limits) : file_(file), limits_(limits) {}
 
     void add(const std::array<Vec3f, 3>& corner, std::int32_t object, int line) {
-        if (++faces.triangles > limits_.triangles) {
+        if (++faces.triangles > most_triangles(limits_)) {
             throw LimitError(
                 fmt::format("{}: has more than limits.triangles = {} triangles", file_, limits_.triangles));
         }
@@ -53,6 +55,14 @@ std::uint32_t facets_of(std::string_view bytes) {
     std::uint32_t count = 0;
     if (bytes.size() >= head_bytes) std::memcpy(&count, bytes.data() + head_bytes - 4, 4);
     return count;
+}
+
+/// A text has no byte 0, which the numbers of a binary file have.
+bool is_text(std::string_view bytes) {
+    const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+    if (first == std::string_view::npos || bytes.find('\0') != std::string_view::npos) return false;
+    const std::string_view word = bytes.substr(first, 5);
+    return word == "solid" || word == "SOLID" || word == "Solid";
 }
 
 bool is_binary(std::string_view bytes) {
@@ -90,7 +100,7 @@ IndexedFaces read_binary(std::string_view bytes, const std::string& file, const 
 class TextReader {
   public:
     TextReader(std::string_view text, const std::string& file, const Limits& limits)
-        : lines_(text), file_(file), out_(file, limits) {}
+        : text_(text), file_(file), out_(file, limits) {}
 
     IndexedFaces run() {
         while (next()) {
@@ -98,7 +108,7 @@ class TextReader {
             begin_solid(trimmed(rest_));
             for (;;) {
                 need("'facet' or 'endsolid'");
-                if (word_ == "endsolid") break;
+                if (is(word_, "endsolid")) break;
                 read_facet();
             }
         }
@@ -106,18 +116,26 @@ class TextReader {
     }
 
   private:
-    [[noreturn]] void fail(const std::string& message) const {
-        throw InputError(file_, lines_.number(), 0, message);
-    }
+    [[noreturn]] void fail(const std::string& message) const { throw InputError(file_, line_, 0, message); }
 
     /// The next line that is not empty, and its first word.
     bool next() {
         do {
-            if (!lines_.next()) return false;
-            rest_ = lines_.line();
-            word_ = take_word(rest_);
+            if (text_.empty()) return false;
+            const std::size_t end = std::min(text_.find_first_of("\r\n"), text_.size());
+            rest_ = text_.substr(0, end);
+            text_.remove_prefix(std::min(end + (text_.substr(end, 2) == "\r\n" ? 2 : 1), text_.size()));
+            ++line_;
+            word_ = take_name_word(rest_);
         } while (word_.empty());
         return true;
+    }
+
+    /// Keywords may be written large.
+    static bool is(std::string_view word, std::string_view keyword) {
+        return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
+            return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+        });
     }
 
     void need(const char* what) {
@@ -125,7 +143,7 @@ class TextReader {
     }
 
     void expect(std::string_view word) const {
-        if (word_ != word) fail(fmt::format("expected '{}', not '{}'", word, shown(word_)));
+        if (!is(word_, word)) fail(fmt::format("expected '{}', not '{}'", word, shown(word_)));
     }
 
     void expect_next(std::string_view word) {
@@ -134,39 +152,38 @@ class TextReader {
     }
 
     void expect_end() {
-        if (const std::string_view more = take_word(rest_); !more.empty())
+        if (const std::string_view more = take_name_word(rest_); !more.empty())
             fail(fmt::format("'{}' is too much here", shown(more)));
     }
 
     Vec3f numbers() {
         float v[3];
         for (float& x : v) {
-            const std::string_view number = take_word(rest_);
+            const std::string_view number = take_name_word(rest_);
             if (number.empty()) fail("three numbers are expected");
-            x = parse_float(number, {file_, lines_.number()});
+            x = parse_float(number, {file_, line_});
         }
         expect_end();
         return {v[0], v[1], v[2]};
     }
 
     void begin_solid(std::string_view name) {
-        auto& names = out_.faces.object_names;
         object_ = -1;
         if (name.empty()) return;
-        for (std::size_t i = 0; i < names.size(); ++i)
-            if (names[i].name == name) object_ = static_cast<std::int32_t>(i);
-        if (object_ >= 0) return;
-        object_ = static_cast<std::int32_t>(names.size());
-        names.push_back({std::string(name), lines_.number()});
+        auto& names = out_.faces.object_names;
+        const auto [at, is_new] =
+            objects_.try_emplace(std::string(name), static_cast<std::int32_t>(names.size()));
+        if (is_new) names.push_back({at->first, line_});
+        object_ = at->second;
     }
 
     void read_facet() {
         expect("facet");
-        const int line = lines_.number();
-        if (take_word(rest_) != "normal") fail("expected 'facet normal'");
+        const int line = line_;
+        if (!is(take_name_word(rest_), "normal")) fail("expected 'facet normal'");
         read_normal();
         expect_next("outer");
-        if (take_word(rest_) != "loop") fail("expected 'outer loop'");
+        if (!is(take_name_word(rest_), "loop")) fail("expected 'outer loop'");
         expect_end();
         std::array<Vec3f, 3> corner;
         for (Vec3f& p : corner) {
@@ -174,7 +191,7 @@ class TextReader {
             p = numbers();
         }
         need("'endloop'");
-        if (word_ == "vertex") fail("a facet of more than three corners");
+        if (is(word_, "vertex")) fail("a facet of more than three corners");
         expect("endloop");
         expect_next("endfacet");
         out_.add(corner, object_, line);
@@ -183,15 +200,17 @@ class TextReader {
     /// Not used, and of degenerate triangles often no number at all.
     void read_normal() {
         for (int k = 0; k < 3; ++k)
-            if (take_word(rest_).empty()) fail("three numbers are expected");
+            if (take_name_word(rest_).empty()) fail("three numbers are expected");
         expect_end();
     }
 
-    LineReader lines_;
+    std::string_view text_;
+    int line_ = 0;
     const std::string& file_;
     StlFaces out_;
     std::string_view rest_, word_;
     std::int32_t object_ = -1;
+    std::map<std::string, std::int32_t> objects_;
 };
 
 }  // namespace
@@ -202,8 +221,7 @@ Model stl_from_bytes(std::string_view bytes, const std::string& file, const Limi
     IndexedFaces faces;
     if (is_binary(bytes)) {
         faces = read_binary(bytes, file, limits, notes);
-    } else if (const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-               first != std::string_view::npos && bytes.substr(first).starts_with("solid")) {
+    } else if (is_text(bytes)) {
         faces = TextReader(bytes, file, limits).run();
     } else if (bytes.size() < head_bytes) {
         throw InputError(file,

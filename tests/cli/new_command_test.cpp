@@ -29,8 +29,8 @@ TEST_P(NewCommand, WritesASceneThatRenders) {
     EXPECT_EQ(file_text(folder / "my scene.toml"),
               file_text(std::string(OBSCURA_SOURCE_DIR "/scenes/starters/") + kind + ".toml"));
     const std::string command = kind == "stereo" ? "stereo" : "render";
-    EXPECT_EQ(made.err,
-              "written: my scene.toml\nrender it: obscura " + command + " my scene.toml -o my scene.png\n");
+    EXPECT_EQ(made.err, "written: my scene.toml\nrender it: obscura " + command +
+                            " 'my scene.toml' -o 'my scene.png'\n");
     std::vector<std::string> words = {command, "my scene.toml",          "-o", "my scene.png",
                                       "-D",    "render.size_px=[64,36]", "-D", "render.samples=1",
                                       "-D",    "sky.occlusion=false"};
@@ -74,7 +74,10 @@ TEST(NewCommand, UnknownKindsAreRefused) {
         wrong.err,
         "obscura: error: --kind 'nigth' is none of place, object, night, stereo; did you mean 'night'?\n");
     EXPECT_EQ(test::run_in(folder, {"new"}).code, 2);
+    EXPECT_EQ(test::run_in(folder, {"new", "sub/"}).code, 2);
     EXPECT_TRUE(folder.listing().empty());
+    EXPECT_EQ(test::run_in(folder, {"new", "a.png"}).code, 0);
+    EXPECT_EQ(folder.listing(), std::vector<std::string>{"a.png.toml"});
 }
 
 }  // namespace

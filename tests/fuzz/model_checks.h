@@ -22,12 +22,16 @@ inline void check_model(const Model& model) {
     }
     for (const Vec3f& p : mesh.positions)
         CHECK(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    for (const Vec2f& t : mesh.uvs)
+        CHECK(std::isfinite(t.x) && std::isfinite(t.y));
     for (const Vec3f& n : mesh.normals)
         CHECK(std::fabs(length(n) - 1.0f) < 1e-4f);
     for (const Plane& plane : mesh.faces)
         CHECK(std::fabs(length(plane.n) - 1.0) < 1e-9 && std::isfinite(plane.d));
     for (const Material& m : model.materials) {
         CHECK(m.texture < static_cast<std::int32_t>(model.texture_files.size()));
+        for (const Vec3f& v : {m.base_color, m.emission})
+            CHECK(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z));
         CHECK(m.roughness >= 0.02f && m.roughness <= 1.0f && m.metallic >= 0.0f && m.metallic <= 1.0f);
     }
 }

@@ -297,10 +297,122 @@ TEST(GltfFile, FilesThatAreNotThereAreNamed) {
     EXPECT_THROW(load_model(folder.path / "cube.gltf", FileAccess{folder.path, {}}, Limits{}), InputError);
 }
 
-TEST(GltfFile, ARingOfNodesHangsOnNothing) {
+TEST(GltfFile, NodesAreTrees) {
     CubeJson cube;
-    cube.nodes = R"([{"mesh":0,"name":"block"},{"mesh":0,"children":[2]},{"children":[1]}])";
-    expect_cube(read_gltf(cube.text()));
+    cube.nodes = R"([{"mesh":0},{"mesh":0,"children":[2]},{"children":[1]}])";
+    EXPECT_EQ(gltf_error(cube.text()), "model.gltf: nodes: some are their own descendants");
+    cube.nodes = R"([{"mesh":0}])";
+    cube.more = R"(,"scenes":[{"nodes":[0,0]}])";
+    EXPECT_EQ(gltf_error(cube.text()), "model.gltf: scenes[0].nodes[1]: node 0 stands there twice");
+}
+
+/// Small files that ask for much: each ends soon, with little memory.
+TEST(GltfFile, SmallFilesCannotAskForMuch) {
+    CubeJson cube;
+    cube.accessors = R"([{"componentType":5126,"count":149999997,"type":"VEC3"}])";
+    cube.primitive = R"({"attributes":{"POSITION":0}})";
+    EXPECT_EQ(gltf_error(cube.text()), "model.gltf: meshes[0].primitives[0]: accessor 0 has no bufferView");
+    // Ten thousand materials of one name, and as many nodes.
+    CubeJson names;
+    names.more = R"(,"materials":[)";
+    names.nodes = "[";
+    for (int i = 0; i < 10'000; ++i) {
+        names.more += R"({"name":"a"},)";
+        names.nodes += R"({"mesh":0,"name":"b"},)";
+    }
+    names.more.back() = ']';
+    names.nodes.back() = ']';
+    const Model model = read_gltf(names.text());
+    EXPECT_EQ(model.materials.at(9999).name, "a_10000");
+    EXPECT_EQ(model.mesh.objects.at(9999).name, "b_10000");
+    // Nodes times primitives that draw nothing.
+    CubeJson points;
+    points.primitive = R"({"attributes":{"POSITION":0},"mode":0})";
+    for (int i = 0; i < 10'000; ++i)
+        points.primitive += R"(,{"attributes":{"POSITION":0},"mode":0})";
+    points.nodes = "[";
+    for (int i = 0; i < 10'000; ++i)
+        points.nodes += R"({"mesh":0},)";
+    points.nodes.back() = ']';
+    EXPECT_EQ(read_gltf(points.text()).notes.at(1), "model.gltf: points and lines not read (10001)");
+    // One file under many names of buffers is held once.
+    Limits limits;
+    limits.memory_mib = 1;
+    CubeJson held;
+    held.uri = "";
+    for (int i = 0; i < 1000; ++i)
+        held.uri += "\"uri\":\"a%20cube.bin\",\"byteLength\":168},{";
+    held.uri += "\"uri\":\"a%20cube.bin\",";
+    EXPECT_EQ(read_gltf(held.text(), limits).mesh.triangles.size(), 12u);
+}
+
+TEST(GltfFile, ManyCornersMayMeetInOnePoint) {
+    // Twenty thousand triangles about one point, every corner there with a normal of its own.
+    const int count = 20'000;
+    std::vector<Vec3f> points, normals;
+    for (int i = 0; i < count; ++i) {
+        points.insert(points.end(),
+                      {{0, 0, 0}, {1, static_cast<float>(i), 0}, {1, static_cast<float>(i) + 0.5f, 0}});
+        const Vec3f n = to_float(normalize(Vec3d{1, 1.0 * i, 3}));
+        normals.insert(normals.end(), {n, n, n});
+    }
+    CubeJson fan;
+    fan.uri = "\"uri\":\"data:;base64," + base64(bytes_of(points) + bytes_of(normals)) + "\",";
+    fan.views = fmt::format(
+        R"([{{"buffer":0,"byteLength":{0}}},{{"buffer":0,"byteOffset":{0},"byteLength":{0}}}])", count * 36);
+    fan.accessors = fmt::format(
+        R"([{{"bufferView":0,"componentType":5126,"count":{0},"type":"VEC3"}},{{"bufferView":1,"componentType":5126,"count":{0},"type":"VEC3"}}])",
+        3 * count);
+    fan.primitive = R"({"attributes":{"POSITION":0,"NORMAL":1}})";
+    std::string text = fan.text();
+    text.replace(text.find("\"byteLength\":168"), 16, fmt::format("\"byteLength\":{}", count * 72));
+    const Model model = read_gltf(text);
+    EXPECT_EQ(model.mesh.triangles.size(), static_cast<std::size_t>(count));
+    EXPECT_GT(model.mesh.positions.size(), static_cast<std::size_t>(2 * count));
+}
+
+TEST(GltfFile, TexturesThatAreMissing) {
+    CubeJson cube;
+    cube.primitive = R"({"attributes":{"POSITION":0},"indices":1,"material":0})";
+    cube.more =
+        R"(,"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+        {"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}],"textures":[{"source":0},{"source":1}],
+        "images":[{"uri":"gone.png"},{"uri":"unused.png"}])";
+    const TemporaryFolder folder;
+    std::ofstream(folder.path / "cube.gltf") << cube.text();
+    const FileAccess access{folder.path, {}};
+    try {
+        load_model(folder.path / "cube.gltf", access, Limits{});
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_EQ(error.message.substr(0, 20), "images[0]: gone.png:");
+        EXPECT_NE(error.message.find("--allow-missing"), std::string::npos);
+    }
+    ModelOptions options;
+    options.allow_missing = true;
+    const Model model = load_model(folder.path / "cube.gltf", access, Limits{}, options);
+    EXPECT_EQ(model.materials.at(0).texture, -1);
+    EXPECT_EQ(model.missing.size(), 1u);
+}
+
+TEST(GltfFile, WhatMapsWouldTakeAwayIsNotShown) {
+    CubeJson cube;
+    cube.primitive = R"({"attributes":{"POSITION":0},"indices":1,"material":0})";
+    cube.more =
+        R"(,"materials":[{"name":"default","emissiveFactor":[1,1,1],"emissiveTexture":{"index":0},
+        "pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}}}])";
+    const Model model = read_gltf(cube.text());
+    EXPECT_EQ(model.materials.at(0).emission, (Vec3f{0, 0, 0}));
+    EXPECT_EQ(model.materials.at(0).metallic, 0);
+    ASSERT_EQ(model.notes.size(), 2u);
+    EXPECT_EQ(model.notes[0],
+              "model.gltf: emissiveTexture of materials, which do not shine then, not read (1)");
+}
+
+TEST(GltfFile, NamesAreShownAsOneLine) {
+    CubeJson cube;
+    cube.nodes = R"([{"mesh":0,"name":"a\nb\u001b[1m"}])";
+    EXPECT_EQ(read_gltf(cube.text()).mesh.objects.at(0).name, "a?b?[1m");
 }
 
 TEST(GltfFile, IndicesBeyondTheVerticesAreRefused) {

@@ -1,6 +1,7 @@
 #include "app/models/model_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -37,6 +38,13 @@ TEST_F(ModelFile, KindsAreToldByEndingsThenByContent) {
     EXPECT_THROW(load(write("e.ply", obj)), InputError);
 }
 
+TEST_F(ModelFile, PipesAreNotWaitedFor) {
+    for (const char* name : {"pipe", "pipe.ply", "pipe.stl", "pipe.glb"}) {
+        ASSERT_EQ(::mkfifo((folder.path / name).c_str(), 0600), 0);
+        EXPECT_THROW(load(folder.path / name), InputError) << name;
+    }
+}
+
 TEST_F(ModelFile, OtherKindsAreNamed) {
     try {
         load(write("a.FBX", "Kaydara"));
@@ -44,6 +52,14 @@ TEST_F(ModelFile, OtherKindsAreNamed) {
     } catch (const InputError& error) {
         EXPECT_EQ(error.message, ".fbx files are not read; OBJ, glTF, PLY and STL are");
     }
+}
+
+std::vector<Vec3f> normals_of(const Mesh& mesh) {
+    std::vector<Vec3f> normals;
+    for (const Triangle& t : mesh.triangles)
+        for (const std::uint32_t v : t.v)
+            normals.push_back(mesh.normals[v]);
+    return normals;
 }
 
 /// A published scan written as every other kind has the same triangles and topology.
@@ -58,6 +74,7 @@ TEST_F(ModelFile, RealMeshesAreTheSameInEveryFormat) {
           std::pair{"t.stl", text_stl_of(mesh, "t")}}) {
         const Model other = load(write(name, bytes));
         EXPECT_EQ(corners_of(other.mesh), corners_of(mesh)) << name;
+        EXPECT_EQ(normals_of(other.mesh), normals_of(mesh)) << name;
         EXPECT_EQ(other.topology.welded.open, obj.topology.welded.open) << name;
         EXPECT_EQ(other.topology.welded.multi, obj.topology.welded.multi) << name;
     }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "app/models/obj_file.h"
+#include "app/models/stl_file.h"
 #include "core/error.h"
 #include "tests/fuzz/model_fuzz.h"
 #include "tests/models/model_bytes.h"
@@ -112,6 +113,50 @@ TEST(PlyFile, LineEndsOfEverySystem) {
             other += c == '\n' ? std::string(end) : std::string(1, c);
         EXPECT_EQ(corners_of(read_ply(other).mesh), corners_of(cube()));
     }
+}
+
+TEST(PlyFile, WhatIsLeftOutIsTold) {
+    const Model model = read_ply(
+        "ply\nformat ascii 1.0\ncomment TextureFile a brick.png\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float s\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n3 0 1 2\n3 2 1 0\n");
+    const std::vector<std::string> notes = {"model.ply: property 'nx' of element 'vertex' is not read",
+                                            "model.ply: property 'ny' of element 'vertex' is not read",
+                                            "model.ply: property 's' of element 'vertex' is not read",
+                                            "model.ply: texture 'a brick.png' of a comment is not read",
+                                            "model.ply: lines after the last element are not read"};
+    EXPECT_EQ(model.notes, notes);
+    EXPECT_TRUE(model.mesh.uvs.empty());
+}
+
+TEST(PlyFile, BinaryDataBeginBehindTheHeadersOwnLineEnd) {
+    // A header of CRs, and a first byte that is an LF.
+    std::string head = ply_head(PlyKind::big) +
+                       "element face 1\nproperty uchar flags\nproperty list uchar uchar vertex_indices\n"
+                       "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n";
+    std::replace(head.begin(), head.end(), '\n', '\r');
+    PlyBytes body(PlyKind::big);
+    body.put(std::uint8_t{10})
+        .put(std::uint8_t{3})
+        .put(std::uint8_t{0})
+        .put(std::uint8_t{1})
+        .put(std::uint8_t{2});
+    for (const float v : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
+        body.put(v);
+    EXPECT_EQ(read_ply(head + body.out).mesh.positions.at(1), (Vec3f{1, 0, 0}));
+}
+
+TEST(PlyFile, SurfacesWithoutNormalsAreSmoothUpToTheCreaseAngle) {
+    const Mesh mesh = cube();
+    ModelOptions smooth, flat;
+    smooth.crease_angle_deg = 100;
+    flat.crease_angle_deg = 80;
+    const std::string bytes = ply_of(mesh, PlyKind::little), stl = binary_stl_of(mesh);
+    EXPECT_EQ(ply_from_bytes(bytes, "c", Limits{}, smooth).mesh.positions.size(), 8u);
+    EXPECT_EQ(ply_from_bytes(bytes, "c", Limits{}, flat).mesh.positions.size(), 24u);
+    EXPECT_EQ(stl_from_bytes(stl, "c", Limits{}, smooth).mesh.positions.size(), 8u);
+    EXPECT_EQ(stl_from_bytes(stl, "c", Limits{}, flat).mesh.positions.size(), 24u);
 }
 
 TEST(PlyFile, CloudsOfPointsHaveNoTriangles) {

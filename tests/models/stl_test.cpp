@@ -73,7 +73,15 @@ TEST(StlFile, AttributesAreTold) {
 
 TEST(StlFile, NormalsNeedNotBeNumbers) {
     std::string text = text_stl_of(cube(), "");
-    text.replace(text.find("normal 0 0 0"), 12, "normal -nan nan 1.#IND");
+    text.replace(text.find("normal 0 0 0"), 12, "normal -1.#IND nan 1.#QNAN");
+    expect_cube(read_stl(text));
+}
+
+TEST(StlFile, KeywordsMayBeLargeAndNamesMayEndInBackslashes) {
+    std::string text = text_stl_of(cube(), "C:\\parts\\");
+    EXPECT_EQ(read_stl(text).mesh.objects[0].name, "C:\\parts\\");
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
     expect_cube(read_stl(text));
 }
 
@@ -110,6 +118,10 @@ TEST(StlFile, ErrorsSayWhereAndWhat) {
               "model.stl:4: '0,5' is not a number (decimals are written with a point)");
     EXPECT_EQ(stl_error("solid\n" + facet + "endloop\nendfacet\n"),
               "model.stl:8: the file ends where 'facet' or 'endsolid' is expected");
+    std::string cut = binary_stl_of(cube());
+    cut.replace(0, 5, "solid");
+    EXPECT_EQ(stl_error(cut.substr(0, 600)),
+              "model.stl: is no STL file, or cut: a binary one of 12 triangles has 684 bytes, not 600");
     EXPECT_EQ(stl_error("v 0 0 0\n"), "model.stl: is no STL file: 8 bytes and no 'solid'");
     EXPECT_EQ(stl_error(binary_stl_of(cube()) + "x"),
               "model.stl: is no STL file, or cut: a binary one of 12 triangles has 684 bytes, not 685");
