@@ -1,0 +1,163 @@
+#include "hierarchy/facet/block_fit.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace obscura {
+namespace {
+
+/// Calls f(texel) until it is false for one.
+template <class F>
+bool for_all(std::uint64_t texels, F&& f) {
+    for (; texels != 0; texels &= texels - 1) {
+        if (!f(std::countr_zero(texels))) return false;
+    }
+    return true;
+}
+
+std::uint64_t texels_of(int first, int height) {
+    const int count = 1 << (2 * height);
+    return (count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1) << first;
+}
+
+}  // namespace
+
+void BlockFit::load(const Square& square, std::span<const Listed> list, const float* entry,
+                    const float* exit) {
+    square_ = square;
+    entry_ = entry;
+    exit_ = exit;
+    const int count = square.side * square.side;
+    // Where there is nothing between before and behind, there is nothing to keep away from.
+    for (int i = 0; i < count; ++i)
+        need_[i] = std::min(least_offset, (exit[i] - entry[i]) * 0.0625f);
+    depths_.clear();
+    edges_.clear();
+    const FacetSet& set = *planes_.facets;
+    for (const Listed& l : list) {
+        const std::uint32_t plane = planes_.plane_of[l.facet];
+        const bool known = std::any_of(depths_.begin(), depths_.end(),
+                                       [&](const PlaneDepths& d) { return d.plane == plane; });
+        if (plane != no_plane && !known && depths_.size() < most_planes) {
+            PlaneDepths& d = depths_.emplace_back();
+            d.plane = plane;
+            for (int i = 0; i < count; ++i)
+                d.z[i] = facet_plane_depth(planes_.planes[plane], square.x0 + block_column(i),
+                                           square.y0 + block_row(i));
+        }
+        const Facet& f = set.facets[l.facet];
+        for (int k = 0; k < f.edges && edges_.size() < most_edges; ++k) {
+            if ((l.crossed >> k & 1u) == 0 || !edge_meets(set, f, k, square)) continue;
+            const FacetEdge edge = line_of(set, f, k).edge;
+            if (std::any_of(edges_.begin(), edges_.end(),
+                            [&](const EdgeTexels& e) { return e.edge == edge; }))
+                continue;
+            EdgeTexels& e = edges_.emplace_back();
+            e.edge = edge;
+            for (int i = 0; i < count; ++i) {
+                const double d = facet_distance(edge, square.x0 + block_column(i), square.y0 + block_row(i));
+                e.high |= static_cast<Texels>(d >= 0) << i;
+            }
+        }
+    }
+}
+
+Acceptable BlockFit::acceptable(Texels texels) const {
+    Acceptable a;
+    a.depths = {0.0f, 1.0f};
+    for_all(texels, [&](int i) {
+        a.depths = common_depths(a.depths, {entry_[i], exit_[i]});
+        return has_depth(a.depths);
+    });
+    for (const PlaneDepths& d : depths_) {
+        float need = 0, room = 1;
+        const bool fits = for_all(texels, [&](int i) {
+            if (d.z[i] < entry_[i]) return false;
+            need = std::max(need, need_[i]);
+            // Half of it: as far from what is behind as from what is before.
+            room = std::min(room, (exit_[i] - d.z[i]) * 0.5f);
+            return room >= need;
+        });
+        if (!fits || !offset_between(need, room)) continue;
+        a.plane = d.plane;
+        a.need = need;
+        a.room = room;
+        break;
+    }
+    return a;
+}
+
+Acceptable BlockFit::ramped(Texels texels, const EdgeTexels& edge, bool high) const {
+    Acceptable a;
+    const double start = facet_ramp_start(edge.edge);
+    const auto beyond = [&](int i) {
+        const double d = facet_distance(edge.edge, square_.x0 + block_column(i), square_.y0 + block_row(i));
+        return (high ? d : -d) - start;
+    };
+    for (const PlaneDepths& d : depths_) {
+        double most = 0x1p60, far = 0, steepest = 0;
+        bool fits = for_all(texels, [&](int i) {
+            if (d.z[i] != entry_[i]) return false;
+            const double b = beyond(i), room = double{exit_[i]} - double{d.z[i]};
+            if (b > 0) most = std::min(most, room / (2 * b));
+            if (b > far) {
+                far = b;
+                steepest = room / b;
+            }
+            return most > 0;
+        });
+        if (!fits || far == 0) continue;
+        const auto ramp = static_cast<std::uint32_t>(std::max(0.0, std::ceil(-std::log2(most))));
+        if (ramp >= facet_no_ramp || 64 * std::ldexp(1.0, -static_cast<int>(ramp)) < steepest) continue;
+        a.ramp = plane_value(d.plane, 0, ramp);
+        const std::uint32_t value = facet_plane_value(0, 0, ramp);
+        fits = for_all(texels, [&](int i) {
+            const float v = facet_behind(d.z[i], facet_offset(value, beyond(i)));
+            return entry_[i] <= v && v <= exit_[i];
+        });
+        a.ramped = fits;
+        if (fits) return a;
+    }
+    return a;
+}
+
+bool BlockFit::by_edge(Texels texels, FacetPart& part) const {
+    for (const EdgeTexels& e : edges_) {
+        const Texels high = texels & e.high, low = texels & ~e.high;
+        if (high == 0 || low == 0) continue;
+        Acceptable a = acceptable(low);
+        if (a.empty()) a = ramped(low, e, false);
+        if (a.empty()) continue;
+        Acceptable b = acceptable(high);
+        if (b.empty()) b = ramped(high, e, true);
+        if (b.empty()) continue;
+        part.value[0] = a;
+        part.value[1] = b;
+        part.has_edge = true;
+        part.edge = e.edge;
+        return true;
+    }
+    return false;
+}
+
+FacetPart BlockFit::part(int first, int height, bool as_root, FacetBuilder& builder) {
+    const Texels texels = texels_of(first, height);
+    const Acceptable a = acceptable(texels);
+    if (!a.empty()) return FacetPart::of(a);
+    FacetPart with_edge;
+    if (!as_root && by_edge(texels, with_edge)) return with_edge;
+    const int quarter = 1 << (2 * (height - 1));
+    FacetPart child[4];
+    for (int i = 0; i < 4; ++i)
+        child[i] = part(first + i * quarter, height - 1, false, builder);
+    return builder.join(child);
+}
+
+FacetPart BlockFit::fit(const Square& square, std::span<const Listed> list, const float* entry,
+                        const float* exit, bool as_root, FacetBuilder& builder) {
+    load(square, list, entry, exit);
+    return part(0, std::countr_zero(static_cast<unsigned>(square.side)), as_root, builder);
+}
+
+}  // namespace obscura
