@@ -89,7 +89,6 @@ Acceptable BlockFit::acceptable(Texels texels) const {
 }
 
 Acceptable BlockFit::ramped(Texels texels, const EdgeTexels& edge, bool high) const {
-    Acceptable a;
     const double start = facet_ramp_start(edge.edge);
     const auto beyond = [&](int i) {
         const double d = facet_distance(edge.edge, square_.x0 + block_column(i), square_.y0 + block_row(i));
@@ -97,7 +96,7 @@ Acceptable BlockFit::ramped(Texels texels, const EdgeTexels& edge, bool high) co
     };
     for (const PlaneDepths& d : depths_) {
         double most = 0x1p60, far = 0, steepest = 0;
-        bool fits = for_all(texels, [&](int i) {
+        const bool fits = for_all(texels, [&](int i) {
             if (d.z[i] != entry_[i]) return false;
             const double b = beyond(i), room = double{exit_[i]} - double{d.z[i]};
             if (b > 0) most = std::min(most, room / (2 * b));
@@ -108,18 +107,10 @@ Acceptable BlockFit::ramped(Texels texels, const EdgeTexels& edge, bool high) co
             return most > 0;
         });
         if (!fits || far == 0) continue;
-        const auto ramp = static_cast<std::uint32_t>(std::max(0.0, std::ceil(-std::log2(most))));
-        if (ramp >= facet_no_ramp || 64 * std::ldexp(1.0, -static_cast<int>(ramp)) < steepest) continue;
-        a.ramp = plane_value(d.plane, 0, ramp);
-        const std::uint32_t value = facet_plane_value(0, 0, ramp);
-        fits = for_all(texels, [&](int i) {
-            const float v = facet_behind(d.z[i], facet_offset(value, beyond(i)));
-            return entry_[i] <= v && v <= exit_[i];
-        });
-        a.ramped = fits;
-        if (fits) return a;
+        const Acceptable ramp = with_ramp(d.plane, 0.5f, most, steepest / 64);
+        if (!ramp.empty()) return ramp;
     }
-    return a;
+    return {};
 }
 
 bool BlockFit::by_edge(Texels texels, FacetPart& part) const {

@@ -27,6 +27,10 @@ FacetTree build_facet_tree(const Mesh& mesh, const LightView& view, const BuildP
 /// more than 2^20 planes.
 ShadowTree encode_facet(const FacetTree& tree, const LightView& view, const EncodeParams& params);
 
+/// Both, on encode.exec. A cancelled tree has no bytes.
+ShadowTree facet_from_mesh(const Mesh& mesh, const LightView& view, const BuildParams& params,
+                           const EncodeParams& encode, BuildStats* stats, const std::atomic<bool>* cancel);
+
 /// The same of a tree of depths alone, which then has no planes and edges.
 ShadowTree encode_facet(const MultiresTree& tree, const LightView& view, const EncodeParams& params);
 

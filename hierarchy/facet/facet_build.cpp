@@ -64,9 +64,7 @@ class Worker {
             // A plane may be what the squares beside it can take.
             if (looked && !verdict.by_mesh) {
                 if (const std::optional<FacetPart> plane = region_.by_plane()) {
-                    part.value[0].plane = plane->value[0].plane;
-                    part.value[0].need = plane->value[0].need;
-                    part.value[0].room = plane->value[0].room;
+                    take_plane(part.value[0], plane->value[0]);
                 }
             }
             return part;

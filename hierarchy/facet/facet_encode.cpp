@@ -272,6 +272,13 @@ ShadowTree encode_facet(const MultiresTree& tree, const LightView& view, const E
     return encode_facet(facet_tree_of(tree), view, params);
 }
 
+ShadowTree facet_from_mesh(const Mesh& mesh, const LightView& view, const BuildParams& params,
+                           const EncodeParams& encode, BuildStats* stats, const std::atomic<bool>* cancel) {
+    const FacetTree tree = build_facet_tree(mesh, view, params, encode.exec, stats, cancel);
+    if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return {};
+    return encode_facet(tree, view, encode);
+}
+
 FacetStats facet_stats(const ShadowTree& tree) {
     FacetHeader header;
     std::memcpy(&header, tree.code.units, sizeof header);

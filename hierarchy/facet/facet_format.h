@@ -17,8 +17,8 @@
 //           [zmin, zmax]
 //
 // A plane that covers a square is what the light sees there, so a value on it would be the lit surface
-// itself. Values lie behind it by an offset: the cap, 2^-(cap + 1), or 0 for cap 31; with a ramp other than
-// 63 no more than 2^-ramp times the distance to the leaf's edge. Surfaces often meet at an edge, and the
+// itself. Values lie behind it by an offset: the cap, 2^-(cap + 1), or 0 for cap 31; on a
+// leaf with an edge, with a ramp other than 63, no more than 2^-ramp times the distance to it. Surfaces often meet at an edge, and the
 // offset has to end where they do.
 
 #include <cstdint>
@@ -78,6 +78,9 @@ OBSCURA_TREE_INLINE double facet_ramp_start(const FacetEdge& e) {
     const std::int32_t a = e.a < 0 ? -e.a : e.a, b = e.b < 0 ? -e.b : e.b;
     return static_cast<double>(a > b ? a : b) * (1.0 / 32.0);
 }
+
+/// Where there is no edge no ramp counts.
+constexpr double facet_far = 0x1p100;
 
 /// Exact.
 OBSCURA_TREE_INLINE double facet_distance(const FacetEdge& e, std::int32_t x, std::int32_t y) {

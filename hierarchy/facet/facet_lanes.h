@@ -91,7 +91,7 @@ OBSCURA_INLINE F32 values(FacetCode, const TreeCode& tree, const std::uint8_t* b
     const I32 zero = splat(std::int32_t{0});
     const Mask line = ~equal(d.count, zero);
     I32 at = d.value;
-    F32 beyond = splat(0.0f);
+    F32 beyond = splat(static_cast<float>(facet_far));
     if (any(line)) choose_sides(tree, base, d, line, x, y, at, beyond);
     const I32 value = gather_bytes<4>(base, at);
     const Mask planes = ~not_negative(value);

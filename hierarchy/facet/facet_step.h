@@ -67,7 +67,7 @@ struct FacetCode {
     };
     static OBSCURA_TREE_INLINE Side side_of(const TreeCode& tree, TreePlace place, std::int32_t x,
                                             std::int32_t y) {
-        if (place.count == 0) return {place.value, 0};
+        if (place.count == 0) return {place.value, facet_far};
         const FacetEdge e = edge(tree, word(tree, place.count));
         const double distance = facet_distance(e, x, y), start = facet_ramp_start(e);
         const std::uint32_t low = place.inside >> 1, first = place.count + 1;

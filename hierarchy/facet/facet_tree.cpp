@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "hierarchy/combine.h"
 
@@ -55,19 +56,11 @@ Choice best_plane(const Slot (&slots)[8], int n) {
         const Acceptable& first = *slots[c].wants;
         if (!first.takes_plane()) continue;
         Choice choice;
-        choice.value.plane = first.plane;
-        choice.value.need = first.need;
-        choice.value.room = first.room;
+        take_plane(choice.value, first);
         choice.covered = 1u << c;
         for (int i = 0; i < n; ++i) {
-            const Acceptable& a = *slots[i].wants;
-            if (i == c || a.plane != first.plane) continue;
-            const float need = std::max(choice.value.need, a.need),
-                        room = std::min(choice.value.room, a.room);
-            if (!offset_between(need, room)) continue;
-            choice.value.need = need;
-            choice.value.room = room;
-            choice.covered |= 1u << i;
+            if (i == c || slots[i].wants->plane != first.plane) continue;
+            if (narrow_plane(choice.value, *slots[i].wants)) choice.covered |= 1u << i;
         }
         if (choice.count() > best.count()) best = choice;
     }
@@ -78,9 +71,7 @@ Choice best_choice(const Slot (&slots)[8], int n) {
     const Choice depth = best_depth(slots, n), plane = best_plane(slots, n);
     Choice best = plane.count() > depth.count() ? plane : depth;
     if (plane.covered == depth.covered) {
-        best.value.plane = plane.value.plane;
-        best.value.need = plane.value.need;
-        best.value.room = plane.value.room;
+        take_plane(best.value, plane.value);
     }
     return best;
 }
@@ -96,8 +87,43 @@ bool offset_between(float need, float room) {
     return offset_of(cap_below(room)) >= need;
 }
 
+Acceptable with_ramp(std::uint32_t plane, float room, double most, double least) {
+    Acceptable a;
+    int steepest = 0;
+    while (steepest < static_cast<int>(facet_no_ramp) && std::ldexp(1.0, -steepest) > most)
+        ++steepest;
+    int flattest = static_cast<int>(facet_no_ramp) - 1;
+    while (flattest >= steepest && std::ldexp(1.0, -flattest) < least)
+        --flattest;
+    if (steepest > flattest || !offset_between(least_offset, room)) return a;
+    a.plane = plane;
+    a.need = least_offset;
+    a.room = room;
+    a.steepest = steepest;
+    a.flattest = flattest;
+    return a;
+}
+
+void take_plane(Acceptable& a, const Acceptable& from) {
+    a.plane = from.plane;
+    a.need = from.need;
+    a.room = from.room;
+    a.steepest = from.steepest;
+    a.flattest = from.flattest;
+}
+
+bool narrow_plane(Acceptable& a, const Acceptable& other) {
+    const float need = std::max(a.need, other.need), room = std::min(a.room, other.room);
+    const int steepest = std::max(a.steepest, other.steepest), flattest = std::min(a.flattest, other.flattest);
+    if (!offset_between(need, room) || steepest > flattest) return false;
+    a.need = need;
+    a.room = room;
+    a.steepest = steepest;
+    a.flattest = flattest;
+    return true;
+}
+
 FacetValue stored_value(const Acceptable& a) {
-    if (a.ramped) return a.ramp;
     if (a.takes_plane()) {
         std::uint32_t cap = cap_below(a.room * 0.5f);
         if (offset_of(cap) < a.need) cap = cap_below(a.room);
@@ -105,7 +131,8 @@ FacetValue stored_value(const Acceptable& a) {
         // behind.
         if (!a.takes_depths() ||
             (a.depths.exit - a.depths.entry) * 0.5f < std::min(offset_of(cap), least_offset))
-            return plane_value(a.plane, cap, facet_no_ramp);
+            return plane_value(a.plane, cap, a.steepest == no_ramp_needed ? facet_no_ramp
+                                                                          : static_cast<std::uint32_t>(a.steepest));
     }
     return depth_value(stored_depth(a.depths));
 }

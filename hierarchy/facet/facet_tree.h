@@ -35,23 +35,31 @@ constexpr FacetValue plane_value(std::uint32_t plane, std::uint32_t cap, std::ui
 /// eight times what rounding does to a depth.
 constexpr float least_offset = 0x1p-21f;
 
+constexpr int no_ramp_needed = -1;
+
 /// What all texels of a square, or of one side of it, can take.
 struct Acceptable {
     DepthInterval depths = no_common_depth;
     /// A plane, and least and greatest offset from it.
     std::uint32_t plane = no_plane;
     float need = 0, room = 0;
-    /// A plane whose offset rises from the square's own edge; nothing else, then.
-    bool ramped = false;
-    FacetValue ramp;
+    /// On a side of an edge, the ramps that the offset may have: from the steepest, none for any, to the flattest.
+    int steepest = no_ramp_needed, flattest = static_cast<int>(facet_no_ramp) - 1;
 
     bool takes_depths() const { return has_depth(depths); }
     bool takes_plane() const { return plane != no_plane; }
-    bool empty() const { return !takes_depths() && !takes_plane() && !ramped; }
+    bool empty() const { return !takes_depths() && !takes_plane(); }
 };
 
 /// Whether some offset that values can have lies between these.
 bool offset_between(float need, float room);
+/// A plane whose offset rises from the edge by no more than `most` a unit of its distance, and no less than `least`,
+/// up to `room`; empty where no ramp does.
+Acceptable with_ramp(std::uint32_t plane, float room, double most, double least);
+/// Takes over the plane of `from`, with all that goes with it.
+void take_plane(Acceptable& a, const Acceptable& from);
+/// What both can take of the one plane that they have; false, and no change: nothing.
+bool narrow_plane(Acceptable& a, const Acceptable& other);
 /// The value that is stored for what is acceptable: well inside.
 FacetValue stored_value(const Acceptable& a);
 

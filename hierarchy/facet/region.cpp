@@ -27,28 +27,6 @@ float clamped(const TriangleRecord& t, double z) {
     return std::max(std::min(f, t.zmax), t.zmin);
 }
 
-/// 2^-ramp is the greatest power of two not above `slope`.
-std::uint32_t ramp_below(double slope) {
-    std::uint32_t ramp = 0;
-    double power = 1;
-    while (ramp < facet_no_ramp && power > slope) {
-        power *= 0.5;
-        ++ramp;
-    }
-    return ramp;
-}
-
-/// The same for caps.
-std::uint32_t cap_below(double room) {
-    std::uint32_t cap = 0;
-    double power = 0.5;
-    while (cap < facet_no_cap && power > room) {
-        power *= 0.5;
-        ++cap;
-    }
-    return cap;
-}
-
 double signed_distance(const FacetEdge& e, double x, double y) {
     return static_cast<double>(e.a) * x + (static_cast<double>(e.b) * y + e.c);
 }
@@ -228,9 +206,9 @@ bool RegionJudge::account(const Side& region, const Listed& q, const Listed& fir
     const double clamped_gap =
         clamps ? std::min({tq.zmax - std::max(p_most, double{tp.zmin}), z_least - tp.zmin, 1.0}) : 1.0;
     if (ends) bounds.behind = std::min(bounds.behind, std::max(clamped(tq, z_least), q.low));
-    const double enough = 8.0 * double{least_offset};
+    const double enough = 2.0 * double{least_offset};
     if (std::min(least, clamped_gap) >= enough) {
-        if (ends) bounds.room = std::min(bounds.room, std::min(least, clamped_gap) / 4);
+        if (ends) bounds.room = std::min(bounds.room, std::min(least, clamped_gap) / 2);
         return true;
     }
     if (!ends && std::min(least, clamped_gap) >= 0) return true;
@@ -390,20 +368,13 @@ std::optional<Acceptable> RegionJudge::judge(const Side& region) {
     const float entry = clamped(record(*first), most);
     const float exit = bounds.behind > 1.0f ? 1.0f : any ? bounds.behind : just_before(bounds.behind);
     if (entry <= exit) a.depths = {entry, exit};
-    if (!bounds.ramp) {
+    const auto room = static_cast<float>(bounds.room);
+    if (bounds.ramp) {
+        take_plane(a, with_ramp(plane, room, bounds.most, std::max(bounds.least, bounds.steepest / 64)));
+    } else if (offset_between(least_offset, room)) {
         a.plane = plane;
-        a.room = static_cast<float>(bounds.room);
         a.need = least_offset;
-        if (!offset_between(a.need, a.room)) a.plane = no_plane;
-    } else if (!a.takes_depths()) {
-        const std::uint32_t ramp = ramp_below(bounds.most), cap = cap_below(bounds.room);
-        const double slope = std::ldexp(1.0, -static_cast<int>(ramp));
-        const bool fits = ramp < facet_no_ramp && cap < facet_no_cap && slope >= bounds.least &&
-                          64 * slope >= bounds.steepest && facet_power(cap + 1) >= least_offset;
-        if (fits) {
-            a.ramped = true;
-            a.ramp = plane_value(plane, cap, ramp);
-        }
+        a.room = room;
     }
     if (a.empty()) return {};
     return a;
