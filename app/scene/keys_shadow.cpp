@@ -88,7 +88,8 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "more off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds "
             "to find; lookups read as many nodes. dag: structure and depths apart, all that is alike in "
             "either written once; lookups read several times as much. facet: leaves hold planes and edges of "
-            "the mesh, so that it hardly grows with the resolution where these are few. auto: the smallest that is as fast "
+            "the mesh, so that it hardly grows with the resolution where these are few. auto: the smallest "
+            "that is as fast "
             "as mh and is waited for once: mmh with scope \"full\", a cache, filter_px 1 and at least 6 "
             "top_levels, else mh; `obscura check` tells which, and why. \"mh\" when not given."),
         word_row_if_given(&ShadowSettings::layout, tree_layout_words.all, "layout",

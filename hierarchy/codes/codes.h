@@ -30,7 +30,8 @@ struct ShadowCodeRow {
     /// Codes that hold more than depths are made from the mesh itself; null: from the tree of depths. Without
     /// top grid; params.needed must be null.
     ShadowTree (*from_mesh)(const Mesh& mesh, const LightView& view, const BuildParams& params,
-                            const EncodeParams& encode, BuildStats* stats, const std::atomic<bool>* cancel) = nullptr;
+                            const EncodeParams& encode, BuildStats* stats,
+                            const std::atomic<bool>* cancel) = nullptr;
 };
 
 extern const ShadowCodeRow shadow_codes[shadow_code_count];

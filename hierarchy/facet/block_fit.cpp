@@ -23,6 +23,24 @@ std::uint64_t texels_of(int first, int height) {
 
 }  // namespace
 
+/// Whether a plane comes first at some texel; then its depths are kept.
+bool BlockFit::is_seen(std::uint32_t plane, int count) {
+    if (plane == no_plane) return false;
+    if (std::any_of(depths_.begin(), depths_.end(), [&](const PlaneDepths& d) { return d.plane == plane; }))
+        return true;
+    if (depths_.size() == most_planes) return false;
+    PlaneDepths& d = depths_.emplace_back();
+    d.plane = plane;
+    bool seen = false;
+    for (int i = 0; i < count; ++i) {
+        d.z[i] =
+            facet_plane_depth(planes_.planes[plane], square_.x0 + block_column(i), square_.y0 + block_row(i));
+        seen = seen || d.z[i] == entry_[i];
+    }
+    if (!seen) depths_.pop_back();
+    return seen;
+}
+
 void BlockFit::load(const Square& square, std::span<const Listed> list, const float* entry,
                     const float* exit) {
     square_ = square;
@@ -36,16 +54,7 @@ void BlockFit::load(const Square& square, std::span<const Listed> list, const fl
     edges_.clear();
     const FacetSet& set = *planes_.facets;
     for (const Listed& l : list) {
-        const std::uint32_t plane = planes_.plane_of[l.facet];
-        const bool known = std::any_of(depths_.begin(), depths_.end(),
-                                       [&](const PlaneDepths& d) { return d.plane == plane; });
-        if (plane != no_plane && !known && depths_.size() < most_planes) {
-            PlaneDepths& d = depths_.emplace_back();
-            d.plane = plane;
-            for (int i = 0; i < count; ++i)
-                d.z[i] = facet_plane_depth(planes_.planes[plane], square.x0 + block_column(i),
-                                           square.y0 + block_row(i));
-        }
+        if (!is_seen(planes_.plane_of[l.facet], count)) continue;
         const Facet& f = set.facets[l.facet];
         for (int k = 0; k < f.edges && edges_.size() < most_edges; ++k) {
             if ((l.crossed >> k & 1u) == 0 || !edge_meets(set, f, k, square)) continue;
@@ -70,20 +79,23 @@ Acceptable BlockFit::acceptable(Texels texels) const {
         a.depths = common_depths(a.depths, {entry_[i], exit_[i]});
         return has_depth(a.depths);
     });
-    for (const PlaneDepths& d : depths_) {
-        float need = 0, room = 1;
-        const bool fits = for_all(texels, [&](int i) {
-            if (d.z[i] < entry_[i]) return false;
-            need = std::max(need, need_[i]);
-            // Half of it: as far from what is behind as from what is before.
-            room = std::min(room, (exit_[i] - d.z[i]) * 0.5f);
-            return room >= need;
-        });
-        if (!fits || !offset_between(need, room)) continue;
-        a.plane = d.plane;
-        a.need = need;
-        a.room = room;
-        break;
+    // The plane that comes first everywhere, else one that lies between before and behind.
+    for (const bool exactly : {true, false}) {
+        for (const PlaneDepths& d : depths_) {
+            float need = 0, room = 1;
+            const bool fits = for_all(texels, [&](int i) {
+                if (exactly ? d.z[i] != entry_[i] : d.z[i] < entry_[i]) return false;
+                need = std::max(need, need_[i]);
+                // Half of it: as far from what is behind as from what is before.
+                room = std::min(room, (exit_[i] - d.z[i]) * 0.5f);
+                return room >= need;
+            });
+            if (!fits || !offset_between(need, room)) continue;
+            a.plane = d.plane;
+            a.need = need;
+            a.room = room;
+            return a;
+        }
     }
     return a;
 }
@@ -97,7 +109,7 @@ Acceptable BlockFit::ramped(Texels texels, const EdgeTexels& edge, bool high) co
     for (const PlaneDepths& d : depths_) {
         double most = 0x1p60, far = 0, steepest = 0;
         const bool fits = for_all(texels, [&](int i) {
-            if (d.z[i] != entry_[i]) return false;
+            if (d.z[i] < entry_[i] || d.z[i] > exit_[i]) return false;
             const double b = beyond(i), room = double{exit_[i]} - double{d.z[i]};
             if (b > 0) most = std::min(most, room / (2 * b));
             if (b > far) {
@@ -118,10 +130,10 @@ bool BlockFit::by_edge(Texels texels, FacetPart& part) const {
         const Texels high = texels & e.high, low = texels & ~e.high;
         if (high == 0 || low == 0) continue;
         Acceptable a = acceptable(low);
-        if (a.empty()) a = ramped(low, e, false);
+        if (!a.takes_plane()) take_plane(a, ramped(low, e, false));
         if (a.empty()) continue;
         Acceptable b = acceptable(high);
-        if (b.empty()) b = ramped(high, e, true);
+        if (!b.takes_plane()) take_plane(b, ramped(high, e, true));
         if (b.empty()) continue;
         part.value[0] = a;
         part.value[1] = b;
@@ -132,7 +144,8 @@ bool BlockFit::by_edge(Texels texels, FacetPart& part) const {
     return false;
 }
 
-FacetPart BlockFit::part(int first, int height, bool as_root, FacetBuilder& builder) {
+FacetPart BlockFit::part(int first, const Square& square, bool as_root, FacetBuilder& builder) {
+    const int height = std::countr_zero(static_cast<unsigned>(square.side));
     const Texels texels = texels_of(first, height);
     const Acceptable a = acceptable(texels);
     if (!a.empty()) return FacetPart::of(a);
@@ -141,14 +154,14 @@ FacetPart BlockFit::part(int first, int height, bool as_root, FacetBuilder& buil
     const int quarter = 1 << (2 * (height - 1));
     FacetPart child[4];
     for (int i = 0; i < 4; ++i)
-        child[i] = part(first + i * quarter, height - 1, false, builder);
-    return builder.join(child);
+        child[i] = part(first + i * quarter, square.child(i), false, builder);
+    return builder.join(child, square, as_root);
 }
 
 FacetPart BlockFit::fit(const Square& square, std::span<const Listed> list, const float* entry,
                         const float* exit, bool as_root, FacetBuilder& builder) {
     load(square, list, entry, exit);
-    return part(0, std::countr_zero(static_cast<unsigned>(square.side)), as_root, builder);
+    return part(0, square, as_root, builder);
 }
 
 }  // namespace obscura

@@ -36,7 +36,8 @@ class BlockFit {
     };
 
     void load(const Square& square, std::span<const Listed> list, const float* entry, const float* exit);
-    FacetPart part(int first, int height, bool as_root, FacetBuilder& builder);
+    bool is_seen(std::uint32_t plane, int count);
+    FacetPart part(int first, const Square& square, bool as_root, FacetBuilder& builder);
     /// What all these texels can take, without ramps.
     Acceptable acceptable(Texels texels) const;
     /// A ramp for texels on one side of an edge.

@@ -112,7 +112,8 @@ class Worker {
         if (const std::optional<FacetPart> part = decide(square, list_, begin, as_root, deepest))
             return *part;
         const std::size_t end = list_.size();
-        if (is_dense(square.side, end - begin, job_.params.tuning)) return rasterize_tile(square, begin);
+        if (is_dense(square.side, end - begin, job_.params.tuning))
+            return rasterize_tile(square, begin, as_root);
         if (square.side <= job_.params.tuning.block_side) return rasterize_block(square, begin, as_root);
         FacetPart child[4];
         for (int i = 0; i < 4; ++i) {
@@ -121,7 +122,7 @@ class Worker {
             child[i] = visit(quadrant, end, false);
             list_.resize(end);
         }
-        const FacetPart part = builder.join(child);
+        const FacetPart part = builder.join(child, square, as_root);
         constexpr std::size_t step = 4096;
         account(step);
         return part;
@@ -144,22 +145,38 @@ class Worker {
         return fit_.fit(square, {list_.data() + begin, list_.size() - begin}, entry, exit, as_root, builder);
     }
 
-    /// Facets as small as texels: depths alone, as in mh.
-    FacetPart rasterize_tile(const Square& square, std::size_t begin) {
+    /// Many facets: intervals first, then what suits them.
+    FacetPart rasterize_tile(const Square& square, std::size_t begin, bool as_root) {
         list_records(square, begin);
         const TileRect rect{square.x0, square.y0, std::max(square.side, 16), square.side};
         intervals_.resize(layer_tile_texels);
         tiler_.run(job_.set().setup, records_, rect, job_.params.receivers, job_.isa, intervals_.data());
-        return of_rows(intervals_.data(), rect.width, square.side);
+        return of_rows(intervals_.data(), rect.width, square, begin, as_root);
     }
 
-    FacetPart of_rows(const DepthInterval* rows, int stride, int side) {
-        if (side == 1) return FacetPart::of(rows[0]);
-        const int half = side / 2;
-        const FacetPart child[4] = {of_rows(rows, stride, half), of_rows(rows + half, stride, half),
-                                    of_rows(rows + half * stride, stride, half),
-                                    of_rows(rows + half * stride + half, stride, half)};
-        return builder.join(child);
+    /// The part over rows of `stride` texels; the square's list is list_ from `begin` to its end.
+    FacetPart of_rows(const DepthInterval* rows, int stride, const Square& square, std::size_t begin,
+                      bool as_root) {
+        if (square.side <= block_side) {
+            alignas(64) float entry[block_texels], exit[block_texels];
+            for (int i = 0; i < square.side * square.side; ++i) {
+                const DepthInterval& interval = rows[block_row(i) * stride + block_column(i)];
+                entry[i] = interval.entry;
+                exit[i] = interval.exit;
+            }
+            return fit_.fit(square, {list_.data() + begin, list_.size() - begin}, entry, exit, as_root,
+                            builder);
+        }
+        const int half = square.side / 2;
+        const std::size_t end = list_.size();
+        FacetPart child[4];
+        for (int i = 0; i < 4; ++i) {
+            hand_down(list_, begin, end, 2.0f, square.child(i), list_);
+            child[i] =
+                of_rows(rows + (i / 2) * half * stride + (i % 2) * half, stride, square.child(i), end, false);
+            list_.resize(end);
+        }
+        return builder.join(child, square, as_root);
     }
 
     const Job& job_;
@@ -282,7 +299,7 @@ class Upper {
             FacetPart child[4];
             for (std::size_t k = 0; k < 4; ++k)
                 child[k] = harvest(node.first_child + k, all);
-            return all.join(child);
+            return all.join(child, node.square, i == 0);
         }
         FacetPart part = node.part.value_or(FacetPart::of(DepthInterval{}));
         if (node.below) {

@@ -18,8 +18,8 @@
 //
 // A plane that covers a square is what the light sees there, so a value on it would be the lit surface
 // itself. Values lie behind it by an offset: the cap, 2^-(cap + 1), or 0 for cap 31; on a
-// leaf with an edge, with a ramp other than 63, no more than 2^-ramp times the distance to it. Surfaces often meet at an edge, and the
-// offset has to end where they do.
+// leaf with an edge, with a ramp other than 63, no more than 2^-ramp times the distance to it. Surfaces often
+// meet at an edge, and the offset has to end where they do.
 
 #include <cstdint>
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "hierarchy/combine.h"
 
@@ -76,6 +77,51 @@ Choice best_choice(const Slot (&slots)[8], int n) {
     return best;
 }
 
+/// On which sides of an edge a square has texels: bit 0 low, bit 1 high.
+unsigned sides_of(const Square& square, const FacetEdge& edge) {
+    const std::int32_t last_x = square.x0 + square.side - 1, last_y = square.y0 + square.side - 1;
+    unsigned sides = 0;
+    for (const std::int32_t x : {square.x0, last_x}) {
+        for (const std::int32_t y : {square.y0, last_y})
+            sides |= facet_distance(edge, x, y) >= 0 ? 2u : 1u;
+    }
+    return sides;
+}
+
+/// Quadrants without anything below them, all of whose edges are one: the square has it itself, if on each
+/// side of it all can take the same.
+std::optional<FacetPart> joined_by_edge(const FacetPart (&child)[4], const Square& square) {
+    const FacetEdge* edge = nullptr;
+    for (const FacetPart& c : child) {
+        if (c.kinds != 0 || (c.has_edge && edge != nullptr && !(c.edge == *edge))) return {};
+        if (c.has_edge) edge = &c.edge;
+    }
+    if (edge == nullptr) return {};
+    FacetPart part;
+    part.has_edge = true;
+    part.edge = *edge;
+    unsigned met = 0;
+    const auto add = [&](int side, const Acceptable& a) {
+        Acceptable& own = part.value[side];
+        const bool first = (met >> side & 1u) == 0;
+        met |= 1u << side;
+        if (first) own = a;
+        return first || narrow(own, a);
+    };
+    for (int i = 0; i < 4; ++i) {
+        const FacetPart& c = child[i];
+        if (c.has_edge) {
+            if (!add(0, c.value[0]) || !add(1, c.value[1])) return {};
+            continue;
+        }
+        const unsigned sides = sides_of(square.child(i), *edge);
+        for (int side = 0; side < 2; ++side) {
+            if ((sides >> side & 1u) != 0 && !add(side, c.value[0])) return {};
+        }
+    }
+    return part;
+}
+
 }  // namespace
 
 FacetValue depth_value(float depth) {
@@ -112,9 +158,22 @@ void take_plane(Acceptable& a, const Acceptable& from) {
     a.flattest = from.flattest;
 }
 
+bool narrow(Acceptable& a, const Acceptable& other) {
+    Acceptable both;
+    both.depths = common_depths(a.depths, other.depths);
+    if (a.takes_plane() && a.plane == other.plane) {
+        take_plane(both, a);
+        if (!narrow_plane(both, other)) both.plane = no_plane;
+    }
+    if (both.empty()) return false;
+    a = both;
+    return true;
+}
+
 bool narrow_plane(Acceptable& a, const Acceptable& other) {
     const float need = std::max(a.need, other.need), room = std::min(a.room, other.room);
-    const int steepest = std::max(a.steepest, other.steepest), flattest = std::min(a.flattest, other.flattest);
+    const int steepest = std::max(a.steepest, other.steepest),
+              flattest = std::min(a.flattest, other.flattest);
     if (!offset_between(need, room) || steepest > flattest) return false;
     a.need = need;
     a.room = room;
@@ -131,8 +190,9 @@ FacetValue stored_value(const Acceptable& a) {
         // behind.
         if (!a.takes_depths() ||
             (a.depths.exit - a.depths.entry) * 0.5f < std::min(offset_of(cap), least_offset))
-            return plane_value(a.plane, cap, a.steepest == no_ramp_needed ? facet_no_ramp
-                                                                          : static_cast<std::uint32_t>(a.steepest));
+            return plane_value(
+                a.plane, cap,
+                a.steepest == no_ramp_needed ? facet_no_ramp : static_cast<std::uint32_t>(a.steepest));
     }
     return depth_value(stored_depth(a.depths));
 }
@@ -152,7 +212,10 @@ FacetNode FacetBuilder::node_of(const FacetPart& part) {
     return node;
 }
 
-FacetPart FacetBuilder::join(const FacetPart (&child)[4]) {
+FacetPart FacetBuilder::join(const FacetPart (&child)[4], const Square& square, bool as_root) {
+    if (!as_root) {
+        if (const std::optional<FacetPart> line = joined_by_edge(child, square)) return *line;
+    }
     Slot slots[8];
     int n = 0;
     for (int i = 0; i < 4; ++i) {
@@ -171,6 +234,12 @@ FacetPart FacetBuilder::join(const FacetPart (&child)[4]) {
         const FacetPart& c = child[i];
         std::uint32_t kind = 0;
         if (c.has_edge) {
+            // Without its edge a value would have no ramp.
+            for (int side = 0; side < 2; ++side) {
+                if (covered[i][0] && covered[i][1] && choice.value.takes_plane() &&
+                    c.value[side].takes_plane() && c.value[side].steepest != no_ramp_needed)
+                    covered[i][side] = false;
+            }
             const std::uint32_t own =
                 (covered[i][0] ? 0 : facet_own_low) | (covered[i][1] ? 0 : facet_own_high);
             kind = own == 0 ? 0 : facet_line | own;

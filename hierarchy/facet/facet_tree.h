@@ -14,6 +14,7 @@
 #include "core/types.h"
 #include "hierarchy/certain_tree.h"
 #include "hierarchy/facet/facet_format.h"
+#include "hierarchy/facets.h"
 #include "hierarchy/multires.h"
 
 namespace obscura {
@@ -43,7 +44,8 @@ struct Acceptable {
     /// A plane, and least and greatest offset from it.
     std::uint32_t plane = no_plane;
     float need = 0, room = 0;
-    /// On a side of an edge, the ramps that the offset may have: from the steepest, none for any, to the flattest.
+    /// On a side of an edge, the ramps that the offset may have: from the steepest, none for any, to the
+    /// flattest.
     int steepest = no_ramp_needed, flattest = static_cast<int>(facet_no_ramp) - 1;
 
     bool takes_depths() const { return has_depth(depths); }
@@ -53,11 +55,13 @@ struct Acceptable {
 
 /// Whether some offset that values can have lies between these.
 bool offset_between(float need, float room);
-/// A plane whose offset rises from the edge by no more than `most` a unit of its distance, and no less than `least`,
-/// up to `room`; empty where no ramp does.
+/// A plane whose offset rises from the edge by no more than `most` a unit of its distance, and no less than
+/// `least`, up to `room`; empty where no ramp does.
 Acceptable with_ramp(std::uint32_t plane, float room, double most, double least);
 /// Takes over the plane of `from`, with all that goes with it.
 void take_plane(Acceptable& a, const Acceptable& from);
+/// What both can take, `a` afterwards; false: nothing.
+bool narrow(Acceptable& a, const Acceptable& other);
 /// What both can take of the one plane that they have; false, and no change: nothing.
 bool narrow_plane(Acceptable& a, const Acceptable& other);
 /// The value that is stored for what is acceptable: well inside.
@@ -106,7 +110,8 @@ struct FacetTree {
 /// Collects a tree from its finished parts, children before parents.
 class FacetBuilder {
   public:
-    FacetPart join(const FacetPart (&child)[4]);
+    /// Of the quadrants of `square`. `as_root`: no edge for the square itself.
+    FacetPart join(const FacetPart (&child)[4], const Square& square, bool as_root = false);
     /// Appends another builder's nodes; returns what to add to its parts' first_child.
     std::uint64_t append(const FacetBuilder& other);
     FacetNode node_of(const FacetPart& part);
