@@ -16,6 +16,11 @@ bool for_all(std::uint64_t texels, F&& f) {
     return true;
 }
 
+float rounded_up(double a) {
+    const auto f = static_cast<float>(a);
+    return static_cast<double>(f) < a ? std::nextafterf(f, 2.0f) : f;
+}
+
 std::uint64_t texels_of(int first, int height) {
     const int count = 1 << (2 * height);
     return (count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1) << first;
@@ -79,18 +84,19 @@ Acceptable BlockFit::acceptable(Texels texels) const {
         a.depths = common_depths(a.depths, {entry_[i], exit_[i]});
         return has_depth(a.depths);
     });
-    // The plane that comes first everywhere, else one that lies between before and behind.
+    // The plane that comes first everywhere, else one that lies between before and behind when it is moved.
     for (const bool exactly : {true, false}) {
         for (const PlaneDepths& d : depths_) {
             float need = 0, room = 1;
             const bool fits = for_all(texels, [&](int i) {
-                if (exactly ? d.z[i] != entry_[i] : d.z[i] < entry_[i]) return false;
-                need = std::max(need, need_[i]);
-                // Half of it: as far from what is behind as from what is before.
-                room = std::min(room, (exit_[i] - d.z[i]) * 0.5f);
+                if (exactly && d.z[i] != entry_[i]) return false;
+                need = std::max(need, rounded_up(double{entry_[i]} - double{d.z[i]} + double{need_[i]}));
+                room = std::min(room, -rounded_up(double{d.z[i]} - double{exit_[i]} + double{need_[i]}));
                 return room >= need;
             });
             if (!fits || !offset_between(need, room)) continue;
+            // A ramp would leave texels without the offset that they need.
+            if (!exactly) a.flattest = no_ramp_needed;
             a.plane = d.plane;
             a.need = need;
             a.room = room;

@@ -45,7 +45,9 @@ class Worker {
           judge_(job.set(), job.params.receivers,
                  job.params.mesh_certificate ? job.params.tuning.longest_surface : 0),
           region_(job.planes, job.params.receivers),
-          fit_(job.planes) {}
+          fit_(job.planes) {
+        builder.planes = &job.planes.planes;
+    }
 
     /// What is known of a square before it is divided; `list` from `begin` on are its facets, `deepest` is
     /// lowered to the depth beyond which nothing counts.
@@ -335,6 +337,7 @@ FacetTree build_facet_tree(const Mesh& mesh, const LightView& view, const BuildP
     const Job job{planes, params, exec.isa, budget, cancel};
     Upper upper(job, exec);
     FacetBuilder all;
+    all.planes = &planes.planes;
     FacetTree tree;
     tree.levels = std::countr_zero(static_cast<unsigned>(view.width));
     const FacetPart root = upper.build(tree.levels, all);

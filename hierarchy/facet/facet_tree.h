@@ -116,6 +116,7 @@ class FacetBuilder {
     std::uint64_t append(const FacetBuilder& other);
     FacetNode node_of(const FacetPart& part);
 
+    const std::vector<FacetPlane>* planes = nullptr;  ///< that parts name, to try them where depths are wide
     std::vector<FacetNode> nodes;
     std::vector<FacetEdge> edges;
 };
