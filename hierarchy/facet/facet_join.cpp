@@ -52,12 +52,11 @@ Acceptable on_plane(const Slot& slot, std::uint32_t plane, const Planes* planes)
     a.need = need;
     a.room = room;
     if (slot.at_edge && double{depths.entry} > double{low}) {
-        // A ramp must have risen so far by there.
-        a.flattest = slot.beyond <= 0
-                         ? no_ramp_needed
-                         : std::min(static_cast<int>(std::floor(std::log2(slot.beyond / double{need}))) - 1,
-                                    static_cast<int>(facet_no_ramp) - 1);
-        if (a.flattest < 0) a.flattest = no_ramp_needed;
+        // A ramp must have risen so far by there, whatever is rounded.
+        a.flattest = no_ramp_needed;
+        while (a.flattest + 1 < static_cast<int>(facet_no_ramp) &&
+               slope_of(a.flattest + 1) * slot.beyond >= 2.0 * double{need})
+            ++a.flattest;
     }
     return a;
 }

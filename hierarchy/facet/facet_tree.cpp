@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 namespace obscura {
 namespace {
@@ -32,10 +31,10 @@ bool offset_between(float need, float room) {
 Acceptable with_ramp(std::uint32_t plane, float room, double most, double least) {
     Acceptable a;
     int steepest = 0;
-    while (steepest < static_cast<int>(facet_no_ramp) && std::ldexp(1.0, -steepest) > most)
+    while (steepest < static_cast<int>(facet_no_ramp) && slope_of(steepest) > most)
         ++steepest;
     int flattest = static_cast<int>(facet_no_ramp) - 1;
-    while (flattest >= steepest && std::ldexp(1.0, -flattest) < least)
+    while (flattest >= steepest && slope_of(flattest) < least)
         --flattest;
     if (steepest > flattest || !offset_between(least_offset, room)) return a;
     a.plane = plane;

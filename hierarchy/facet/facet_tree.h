@@ -53,6 +53,11 @@ struct Acceptable {
     bool empty() const { return !takes_depths() && !takes_plane(); }
 };
 
+/// What a ramp rises by in a unit of the edge's distance.
+inline double slope_of(int ramp) {
+    return double{facet_power(static_cast<std::uint32_t>(ramp))};
+}
+
 /// Whether some offset that values can have lies between these.
 bool offset_between(float need, float room);
 /// A plane whose offset rises from the edge by no more than `most` a unit of its distance, and no less than
