@@ -11,7 +11,6 @@
 //        hierarchy/facet/facet_step.h FacetCode, hierarchy/codes/decode.h tree_value.
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
@@ -23,6 +22,7 @@
 #include "hierarchy/facet/facet_step.h"
 #include "lessons/drawing/figure.h"
 #include "lessons/drawing/panels.h"
+#include "lessons/facet_panels.h"
 #include "lessons/ladder.h"
 #include "lessons/tree_scene.h"
 #include "raster/interval_map.h"
@@ -34,49 +34,6 @@ BuildParams lesson_params() {
     BuildParams params;
     params.receivers = Receivers::static_only;
     return params;
-}
-
-/// A leaf of a tree with planes and edges, and the square that it is.
-struct FacetSquare {
-    int x = 0, y = 0, side = 1;
-    const FacetNode* node = nullptr;
-    bool line = false;
-};
-
-void collect(const FacetTree& tree, const FacetNode& node, FacetSquare at, std::vector<FacetSquare>& out) {
-    std::uint64_t child = node.first_child;
-    for (int i = 0; i < 4; ++i) {
-        const int half = at.side / 2;
-        FacetSquare square{at.x + (i % 2) * half, at.y + (i / 2) * half, half, nullptr, false};
-        const std::uint32_t kind = node.child(i);
-        if (kind != 0) square.node = &tree.nodes[child++];
-        square.line = (kind & facet_line) != 0;
-        if (square.node != nullptr && square.node->kinds != 0) {
-            collect(tree, *square.node, square, out);
-        } else {
-            out.push_back(square);
-        }
-    }
-}
-
-std::vector<FacetSquare> squares_of(const FacetTree& tree) {
-    std::vector<FacetSquare> squares;
-    collect(tree, tree.root, {0, 0, 1 << tree.levels, &tree.root, false}, squares);
-    return squares;
-}
-
-/// Where an edge crosses a square, in texels of the map: two points, or none.
-std::vector<Vec2d> crossing(const FacetEdge& e, const FacetSquare& s) {
-    std::vector<Vec2d> points;
-    const auto at = [&](double x, double y) { return double{e.c} + e.a * (x - 0.5) + e.b * (y - 0.5); };
-    const double x[5] = {0, 1, 1, 0, 0}, y[5] = {0, 0, 1, 1, 0};
-    for (int i = 0; i < 4; ++i) {
-        const Vec2d p{s.x + s.side * x[i], s.y + s.side * y[i]},
-            q{s.x + s.side * x[i + 1], s.y + s.side * y[i + 1]};
-        const double dp = at(p.x, p.y), dq = at(q.x, q.y);
-        if ((dp < 0) != (dq < 0)) points.push_back(p + (q - p) * (dp / (dp - dq)));
-    }
-    return points;
 }
 
 // Steps 1 and 2: squares of either tree over the same roofs.
@@ -134,28 +91,10 @@ void draw_row(Figure& f, const Mesh& mesh, const Exec& exec) {
     const ShadowTree encoded = encode_facet(tree, view, {});
     // The largest leaf with a plane on a ramp on one of its sides, and its middle row.
     const std::vector<FacetSquare> squares = squares_of(tree);
-    const FacetSquare* shown = nullptr;
-    const auto ramped = [](const FacetValue& v) {
-        return v.plane != no_plane && v.bits >> 5 != facet_no_ramp && (v.bits & 31u) < facet_no_cap;
-    };
-    for (const FacetSquare& s : squares) {
-        if (!s.line || (!ramped(s.node->value[0]) && !ramped(s.node->value[1]))) continue;
-        if (crossing(tree.edges[s.node->edge], s).size() == 2 && (shown == nullptr || s.side > shown->side))
-            shown = &s;
-    }
+    const FacetSquare* shown = largest_ramp(tree, squares);
     f.text({900, 146}, "3  A row of texels through a leaf", lettering::head);
     if (shown == nullptr) return;
-    // The row where the edge is nearest to the middle.
-    const FacetEdge& edge = tree.edges[shown->node->edge];
-    int row = shown->y;
-    double best = 1e300;
-    for (int y = shown->y; y < shown->y + shown->side; ++y) {
-        const double d = std::fabs(facet_distance(edge, shown->x + shown->side / 2, y));
-        if (d < best) {
-            best = d;
-            row = y;
-        }
-    }
+    const int row = middle_row(tree.edges[shown->node->edge], *shown);
     IntervalParams params;
     params.receivers = Receivers::static_only;
     params.region = {shown->x, row, shown->side, 1};
