@@ -48,7 +48,8 @@ const FacetSquare* largest_ramp(const FacetTree& tree, const std::vector<FacetSq
     };
     const FacetSquare* shown = nullptr;
     for (const FacetSquare& s : squares) {
-        if (!s.line || (!ramped(s.node->value[0]) && !ramped(s.node->value[1]))) continue;
+        if (!s.line || s.node->value[0].plane == no_plane || s.node->value[1].plane == no_plane) continue;
+        if (!ramped(s.node->value[0]) && !ramped(s.node->value[1])) continue;
         if (crossing(tree.edges[s.node->edge], s).size() == 2 && (shown == nullptr || s.side > shown->side))
             shown = &s;
     }

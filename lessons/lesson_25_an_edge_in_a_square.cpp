@@ -107,7 +107,7 @@ void draw_row(Figure& f, const Mesh& mesh, const Exec& exec) {
     const double margin = std::max(0.6 * (high - low), 1e-4);
     const Plot plot{
         {930, 170, 620, 380}, 0, static_cast<double>(shown->side), -(high + margin), -(low - 0.3 * margin)};
-    f.fill(plot.box, ink::panel);
+    f.axes(plot, "texels of the row", "towards the light");
     for (int i = 0; i < shown->side; ++i) {
         const DepthInterval d = intervals(i, 0);
         const Vec2d top = plot.at(i + 0.1, -double{d.entry});
@@ -117,7 +117,6 @@ void draw_row(Figure& f, const Mesh& mesh, const Exec& exec) {
                                        static_cast<std::uint32_t>(row));
         if (-double{value} > plot.y0) f.disc(plot.at(i + 0.5, -double{value}), 3, ink::red);
     }
-    f.axes(plot, "texels of the row", "");
     f.paragraph(
         {900, 590},
         fmt::format("{} texels of one leaf of a map of {}: depth intervals, from the first surface to the "
@@ -128,9 +127,9 @@ void draw_row(Figure& f, const Mesh& mesh, const Exec& exec) {
 
 // Step 4: bytes.
 void draw_bytes(Figure& f, const Mesh& mesh, const Exec& exec) {
-    f.text({40, 660}, "4  Bytes, whenever the side doubles", lettering::head);
-    const Plot plot{{110, 690, 700, 200}, 8, 13, 3.6, 6};
-    level_lines(f, plot, {4, 5, 6});
+    f.text({40, 660}, "4  Bytes as powers of ten, whenever the side doubles", lettering::head);
+    const Plot plot{{110, 690, 700, 200}, 8, 13, 4, 7.2};
+    level_lines(f, plot, {4, 5, 6, 7});
     std::vector<Vec2d> plain, ours;
     for (int levels = 8; levels <= 13; ++levels) {
         const LightView view = lesson_view(mesh, 1 << levels);
