@@ -117,6 +117,37 @@ TEST(FacetFile, RefusesWhatWasWrittenOnPurpose) {
     EXPECT_EQ(fault(plane + 6, to(0x3f800000u)), at_tree + "a plane means nothing") << "least above most";
 }
 
+TEST(FacetFile, RefusesTreesThatShareChildren) {
+    // Twenty levels in which all four children of a node are full and have the same children: walks would
+    // meet 4^20 nodes in a file of 200 words.
+    constexpr std::size_t first = facet_header_words, levels = 20, nodes = 2 + 8 * (levels - 1) + 4;
+    constexpr std::uint32_t all_full = 03333, all_leaves = 01111;
+    std::vector<std::uint32_t> words(first + nodes + nodes % 2, 0);
+    words[first] = all_full | 2u << facet_kind_bits;
+    for (std::size_t level = 1; level < levels; ++level) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const std::size_t node = first + 2 + 8 * (level - 1) + 2 * i, below = first + 2 + 8 * level;
+            words[node] = (level + 1 < levels ? all_full : all_leaves) |
+                          static_cast<std::uint32_t>(below - node) << facet_kind_bits;
+        }
+    }
+    FacetHeader header;
+    header.nodes = static_cast<std::uint32_t>(nodes + nodes % 2);
+    header.first_edge = header.first_plane = static_cast<std::uint32_t>(words.size());
+    std::memcpy(words.data(), &header, sizeof header);
+    ShadowTree bomb;
+    bomb.view = any_view(20);
+    bomb.bytes = 4 * words.size();
+    bomb.counts = {1 + 4 * (levels - 1), 0, 4};
+    bomb.code.units = reinterpret_cast<const std::uint8_t*>(words.data());
+    bomb.code.code = ShadowCode::facet;
+    bomb.code.layout = TreeLayout::floats;
+    bomb.code.levels = static_cast<std::int32_t>(levels);
+    std::fill(std::begin(bomb.code.offset_scale), std::end(bomb.code.offset_scale), 1u);
+    EXPECT_STREQ(facet_fault_of(bomb), "the number of nodes is not the one stated");
+    EXPECT_FALSE(try_trees(file_of({bomb}), false));
+}
+
 TEST(FacetFile, CraftedFilesLeadNoLookupOutside) {
     // Random damage under right checksums: refused, or harmless. Run under sanitizers to see it fail.
     std::mt19937 rng(12);
