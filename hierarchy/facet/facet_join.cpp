@@ -19,7 +19,7 @@ struct Slot {
     const Acceptable* wants;
     Square square;
     int child = 0, side = 0;
-    bool at_edge = false;  ///< a ramp would count from there
+    bool at_edge = false;  ///< a ramp would count: from its edge, or from those of what is below it
     double beyond = 0;     ///< least distance from an edge, less its ramps' start
 };
 
@@ -197,7 +197,8 @@ FacetPart FacetBuilder::join(const FacetPart (&child)[4], const Square& square, 
     int n = 0;
     for (int i = 0; i < 4; ++i) {
         for (int side = 0; side < (child[i].has_edge ? 2 : 1); ++side)
-            slots[n++] = {&child[i].value[side], square.child(i), i, side, child[i].has_edge, 0};
+            slots[n++] = {
+                &child[i].value[side], square.child(i), i, side, child[i].has_edge || child[i].kinds != 0, 0};
     }
     const Choice choice = best_choice(slots, n, planes);
 
