@@ -80,9 +80,10 @@ F32 naive_mean(const TreeCode& tree, bool clamp, const Kernel16& k, const Mask& 
         const Mask inside = between(x, 0, last) & between(y, 0, last);
         const Mask asked = clamp ? active : active & inside;
         Descents16<Code> d = descents_from<Code>(Code::root(tree), asked);
-        descend_to<Code>(tree, base, tree.levels, k.level, shift_left(clamped(x, 0, last), k.level),
-                         shift_left(clamped(y, 0, last), k.level), d);
-        const Mask lit = less_equal(depth, values(Code{}, tree, base, d));
+        const I32 at_x = shift_left(clamped(x, 0, last), k.level),
+                  at_y = shift_left(clamped(y, 0, last), k.level);
+        descend_to<Code>(tree, base, tree.levels, k.level, at_x, at_y, d);
+        const Mask lit = less_equal(depth, values_of<Code>(tree, base, d, at_x, at_y, k.level));
         return clamp ? lit : lit | ~inside;
     });
 }
@@ -187,26 +188,62 @@ OBSCURA_INLINE void split_squares(const TreeCode& tree, const std::uint8_t* base
     }
 }
 
+/// What tap (i, j) of each lane finds where its descent stands.
+template <class Code>
+OBSCURA_INLINE F32 value_of_tap(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k,
+                                const Descents16<Code>& d, int i, int j) {
+    return values_of<Code>(tree, base, d, shift_left(k.x0 + splat(i), k.level),
+                           shift_left(k.y0 + splat(j), k.level), k.level);
+}
+
 /// Taps of kernels whose four corner squares are all that is to be known.
 template <class Code, int fixed>
 OBSCURA_INLINE F32 mean_of_corners(const TreeCode& tree, const std::uint8_t* base, const Kernel16& k, int fit,
                                    const Descents16<Code> (&corner)[2][2], const Mask& active) {
-    F32 value[2][2];
-    for (int j = 0; j < 2; ++j) {
-        for (int i = 0; i < 2; ++i)
-            value[j][i] = values(Code{}, tree, base, corner[j][i]);
-    }
-    const F32 least = min(min(value[0][0], value[0][1]), min(value[1][0], value[1][1]));
-    const F32 greatest = max(max(value[0][0], value[0][1]), max(value[1][0], value[1][1]));
-    F32 visibility;
-    if (decided<fixed>(k, least, greatest, active, visibility)) return visibility;
     const I32 first_x = shift_right(k.x0, fit), first_y = shift_right(k.y0, fit);
-    return mean<fixed>(k, [&](int i, int j, const F32& depth) {
-        const Mask left = equal(shift_right(k.x0 + splat(i), fit), first_x);
-        const Mask upper = equal(shift_right(k.y0 + splat(j), fit), first_y);
-        return less_equal(depth, select(upper, select(left, value[0][0], value[0][1]),
-                                        select(left, value[1][0], value[1][1])));
-    });
+    const auto left = [&](int i) { return equal(shift_right(k.x0 + splat(i), fit), first_x); };
+    const auto upper = [&](int j) { return equal(shift_right(k.y0 + splat(j), fit), first_y); };
+    if constexpr (Code::varies) {
+        return mean<fixed>(k, [&](int i, int j, const F32& depth) {
+            const Mask l = left(i);
+            const Descents16<Code> d = select(upper(j), select(l, corner[0][0], corner[0][1]),
+                                              select(l, corner[1][0], corner[1][1]));
+            return less_equal(depth, value_of_tap<Code>(tree, base, k, d, i, j));
+        });
+    } else {
+        F32 value[2][2];
+        for (int j = 0; j < 2; ++j) {
+            for (int i = 0; i < 2; ++i)
+                value[j][i] = values(Code{}, tree, base, corner[j][i]);
+        }
+        const F32 least = min(min(value[0][0], value[0][1]), min(value[1][0], value[1][1]));
+        const F32 greatest = max(max(value[0][0], value[0][1]), max(value[1][0], value[1][1]));
+        F32 visibility;
+        if (decided<fixed>(k, least, greatest, active, visibility)) return visibility;
+        return mean<fixed>(k, [&](int i, int j, const F32& depth) {
+            const Mask l = left(i);
+            return less_equal(depth, select(upper(j), select(l, value[0][0], value[0][1]),
+                                            select(l, value[1][0], value[1][1])));
+        });
+    }
+}
+
+/// Taps of kernels whose descents all end in one place.
+template <class Code, int fixed>
+OBSCURA_INLINE F32 mean_of_place(const TreeCode& tree, const Kernel16& k, const TreePlace& place,
+                                 const Mask& active) {
+    if constexpr (Code::varies) {
+        const std::uint8_t* base = biased_units<Code>(tree);
+        const Descents16<Code> d = descents_from<Code>(place, active);
+        return mean<fixed>(k, [&](int i, int j, const F32& depth) {
+            return less_equal(depth, value_of_tap<Code>(tree, base, k, d, i, j));
+        });
+    } else {
+        const F32 stored = splat(Code::depth(tree, place));
+        F32 visibility;
+        if (decided<fixed>(k, stored, stored, active, visibility)) return visibility;
+        return mean<fixed>(k, [&](int, int, const F32& depth) { return less_equal(depth, stored); });
+    }
 }
 
 /// fixed: the kernel's side, or 0: k.side.
@@ -231,11 +268,8 @@ F32 shared_mean(const TreeCode& tree, bool clamp, Kernel16& k, const Mask& activ
                       ((k.y0 ^ splat(y0)) | ((k.y0 + to_end) ^ splat(y0)));
     const int height = k.level + common_height(united_bits(apart));
     const TreePlace place = extend_path<Code>(tree, x0 << k.level, y0 << k.level, height, path);
-    F32 visibility;
     if (place.node == no_tree_node || height == k.level) {
-        const F32 stored = splat(Code::depth(tree, place));
-        if (decided<fixed>(k, stored, stored, active, visibility)) return visibility;
-        return mean<fixed>(k, [&](int, int, const F32& depth) { return less_equal(depth, stored); });
+        return mean_of_place<Code, fixed>(tree, k, place, active);
     }
 
     const std::uint8_t* base = biased_units<Code>(tree);
@@ -257,7 +291,7 @@ F32 shared_mean(const TreeCode& tree, bool clamp, Kernel16& k, const Mask& activ
         now = 1 - now;
     }
     return mean<fixed>(k, [&](int i, int j, const F32& depth) {
-        return less_equal(depth, values(Code{}, tree, base, square[now][j][i]));
+        return less_equal(depth, value_of_tap<Code>(tree, base, k, square[now][j][i], i, j));
     });
 }
 

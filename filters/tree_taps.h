@@ -28,7 +28,7 @@ template <class Code>
 float value_along(const TreeTaps& taps, std::int32_t x, std::int32_t y, TreePath& path) {
     const int level = taps.kernel.level;
     const TreePlace place = extend_path<Code>(taps.tree, x << level, y << level, level, path);
-    return Code::depth(taps.tree, place);
+    return depth_of<Code>(taps.tree, place, x << level, y << level, level);
 }
 
 /// Every tap from the root; adds the nodes visited to `steps`.
@@ -45,6 +45,27 @@ float naive_mean(const TreeTaps& taps, int& steps) {
     });
 }
 
+/// The taps of a kernel whose descents end in one place.
+template <class Code>
+float mean_of_one(const TreeTaps& taps, TreePlace place) {
+    const Kernel& k = taps.kernel;
+    const int end = k.side - 1;
+    if constexpr (Code::varies) {
+        return k.mean([&](int i, int j) {
+            return k.depth_at(i, j) <=
+                   depth_of<Code>(taps.tree, place, taps.x(i) << k.level, taps.y(j) << k.level, k.level);
+        });
+    } else {
+        // One value for all taps: their extreme depths, which are at corners, may decide.
+        const float value = Code::depth(taps.tree, place);
+        const float corner[4] = {k.depth_at(0, 0), k.depth_at(end, 0), k.depth_at(0, end),
+                                 k.depth_at(end, end)};
+        if (*std::max_element(corner, corner + 4) <= value) return 1.0f;
+        if (value < *std::min_element(corner, corner + 4)) return 0.0f;
+        return k.mean([&](int i, int j) { return k.depth_at(i, j) <= value; });
+    }
+}
+
 /// The taps together to their lowest common node, then one after the other; the path, which may come from
 /// another kernel, counts the nodes visited.
 template <class Code>
@@ -55,15 +76,7 @@ float shared_mean(const TreeTaps& taps, TreePath& path) {
         const std::int32_t x0 = taps.x(0), y0 = taps.y(0), x1 = taps.x(end), y1 = taps.y(end);
         const int height = k.level + common_height(static_cast<std::uint32_t>((x0 ^ x1) | (y0 ^ y1)));
         const TreePlace place = extend_path<Code>(taps.tree, x0 << k.level, y0 << k.level, height, path);
-        if (place.node == no_tree_node || height == k.level) {
-            // One value for all taps: their extreme depths, which are at corners, may decide.
-            const float value = Code::depth(taps.tree, place);
-            const float corner[4] = {k.depth_at(0, 0), k.depth_at(end, 0), k.depth_at(0, end),
-                                     k.depth_at(end, end)};
-            if (*std::max_element(corner, corner + 4) <= value) return 1.0f;
-            if (value < *std::min_element(corner, corner + 4)) return 0.0f;
-            return k.mean([&](int i, int j) { return k.depth_at(i, j) <= value; });
-        }
+        if (place.node == no_tree_node || height == k.level) return mean_of_one<Code>(taps, place);
     }
     return k.mean([&](int i, int j) {
         const std::int32_t x = taps.x(i), y = taps.y(j);

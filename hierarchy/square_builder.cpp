@@ -8,18 +8,12 @@
 #include "raster/layer_tile.h"
 
 namespace obscura {
-namespace {
-
-/// Whether a square's list is so long that rasterizing it as one tile costs less than the facets' way through
-/// further divisions, or longer than a block can take.
-bool dense(std::int32_t side, std::size_t count, const BuildTuning& tuning) {
+bool is_dense(std::int32_t side, std::size_t count, const BuildTuning& tuning) {
     if (side <= tuning.block_side && count > block_facets) return true;
     if (side > tuning.tile_side) return false;
     const auto texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     return count > (side <= 16 ? block_facets : texels / static_cast<std::size_t>(tuning.texels_per_facet));
 }
-
-}  // namespace
 
 void NodeBudget::take(std::uint64_t nodes) {
     if (used.fetch_add(nodes, std::memory_order_relaxed) + nodes <= most) return;
@@ -119,7 +113,7 @@ auto SquareBuilder<Tree>::visit(const Site& site, std::size_t begin) -> Part {
     if (const std::optional<Part> part = decide(site, list_, begin, deepest)) return *part;
     const std::size_t end = list_.size(), mark = tree.nodes.size();
     Part part;
-    if (dense(site.square.side, end - begin, params_.tuning) ||
+    if (is_dense(site.square.side, end - begin, params_.tuning) ||
         (certain_ && site.square.side <= params_.tuning.tile_side)) {
         part = rasterize_tile(site, begin);
     } else if (site.square.side <= params_.tuning.block_side) {

@@ -45,6 +45,10 @@ struct NodeBudget {
     void take(std::uint64_t nodes);
 };
 
+/// Whether a square's list is so long that rasterizing it as one tile costs less than the facets' way through
+/// further divisions, or longer than a block can take.
+bool is_dense(std::int32_t side, std::size_t count, const BuildTuning& tuning);
+
 /// Builds the part of the tree below one square, depth first. One per thread: it keeps working memory as
 /// large as the scene. Tree: MultiresBuilder<2> for depths, CertainBuilder for what depths are chosen from.
 template <class Tree>

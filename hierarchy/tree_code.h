@@ -2,7 +2,8 @@
 // The serialised tree as lookups read it. POD: kernels include this.
 //
 // A *code* is a way to write a tree of depths (hierarchy/codes): `mh` is described here, since others are
-// built on its nodes, `mmh` in hierarchy/mmh, `dag` in hierarchy/dag.
+// built on its nodes, `mmh` in hierarchy/mmh, `dag` in hierarchy/dag, `facet` in
+// hierarchy/facet.
 //
 // Scandolo, Bauszat, Eisemann 2016, section 3.2, after S. Lefebvre, H. Hoppe, "Compressed Random-Access Trees
 // for Spatially Coherent Data", EGSR 2007: depth first, siblings side by side, each inner node with the kinds
@@ -29,14 +30,14 @@ constexpr int max_tree_levels = 20;
 constexpr int max_top_levels = 12;
 
 /// The codes. Their numbers stand in files; what they can do is in hierarchy/codes/codes.h.
-enum class ShadowCode : std::uint32_t { mh = 0, mmh = 1, dag = 2 };
+enum class ShadowCode : std::uint32_t { mh = 0, mmh = 1, dag = 2, facet = 3 };
 
 struct ShadowCodeName {
     ShadowCode code;
     const char* name;  ///< in scene files
 };
 inline constexpr ShadowCodeName shadow_code_names[] = {
-    {ShadowCode::mh, "mh"}, {ShadowCode::mmh, "mmh"}, {ShadowCode::dag, "dag"}};
+    {ShadowCode::mh, "mh"}, {ShadowCode::mmh, "mmh"}, {ShadowCode::dag, "dag"}, {ShadowCode::facet, "facet"}};
 constexpr int shadow_code_count = static_cast<int>(sizeof shadow_code_names / sizeof shadow_code_names[0]);
 
 /// Of a code that is one.
@@ -47,13 +48,15 @@ constexpr const char* name_of(ShadowCode code) {
     return shadow_code_names[i].name;
 }
 
-/// How a code writes its nodes (words16, words24, bytes16: mh) or its values (fractions, float_bits: others).
+/// How a code writes its nodes (words16, words24, bytes16: mh) or its values (fractions, float_bits: mmh,
+/// dag; floats: facet).
 enum class TreeLayout : std::uint32_t {
     words16 = 0,
     words24 = 1,
     bytes16 = 2,
     fractions = 3,
-    float_bits = 4
+    float_bits = 4,
+    floats = 5
 };
 
 /// A layout of mh and all that tells it from the others.
@@ -86,7 +89,8 @@ struct TreePlace {
     /// What the code carries of the values on the way, this node's included. mh: the unit index of the last
     /// one (of the value itself, not its node). mmh: their sum. dag: the number of the last one.
     std::uint32_t value = 0;
-    /// dag alone: values that stand before those below the node, and where in a treelet the descent stands.
+    /// dag: values that stand before those below the node, and where in a treelet the descent stands. facet:
+    /// the line that the descent ended in, and what it has of its own.
     std::uint32_t count = 0, inside = 0;
 };
 constexpr std::uint32_t no_tree_node = 0xffffffffu;
@@ -97,9 +101,9 @@ struct TopNode {
 };
 
 /// Of one entry of the top grid, which is where descents stand after their first levels: node and value; of
-/// dag then count and inside.
+/// dag and facet then count and inside.
 constexpr int top_nodes_of(ShadowCode code) {
-    return code == ShadowCode::dag ? 2 : 1;
+    return code == ShadowCode::dag || code == ShadowCode::facet ? 2 : 1;
 }
 
 /// What a lookup needs of a tree. mh and mmh: the root stands at unit 0 and is always a full node, even

@@ -16,6 +16,7 @@
 #include "filters/shadow_lookup.h"
 #include "hierarchy/build_memory.h"
 #include "hierarchy/codes/codes.h"
+#include "hierarchy/codes/decode.h"
 #include "raster/lighting.h"
 #include "raster/shadow_map.h"
 
@@ -68,23 +69,40 @@ std::uint64_t most_nodes(std::int64_t bytes, const ShadowCodeRow& code) {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(bytes, 0) / code.node_construction_bytes);
 }
 
-MultiresTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,
-                        std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
-                        const std::atomic<bool>* cancel) {
-    const ShadowCodeRow& code = row_of(chosen_code(light.shadow).code);
+/// One tree, with its top grid. Without meaning when stopped.
+ShadowTree build_tree(const Mesh& mesh, const SceneLight& light, const LightView& view, BuildParams params,
+                      std::int64_t left_bytes, const Exec& exec, LightShadowStats& stats,
+                      const std::atomic<bool>* cancel) {
+    EncodeParams encode;
+    encode.code = chosen_code(light.shadow).code;
+    encode.layout = light.shadow.layout;
+    encode.exec = exec;
+    const ShadowCodeRow& code = row_of(encode.code);
     params.max_nodes = most_nodes(left_bytes, code);
     params.keep_intervals = code.wants_intervals;
+    const bool from_mesh = is_from_mesh(code, params);
     BuildStats of_view;
+    MultiresTree depths;
+    ShadowTree tree;
     try {
-        MultiresTree tree = build_shadow_tree(mesh, view, params, exec, &of_view, cancel);
+        if (from_mesh) {
+            tree = code.from_mesh(mesh, view, params, encode, &of_view, cancel);
+        } else {
+            depths = build_shadow_tree(mesh, view, params, exec, &of_view, cancel);
+        }
         stats.build += of_view;
-        return tree;
     } catch (const LimitError& error) {
         throw LimitError(fmt::format(
             "light '{}', {} x {} texels: {}, more than fit into the {} MiB that limits.memory_mib leaves; {}",
             light.light.id, view.width, view.height, error.what(), left_bytes >> 20,
             smaller_tree_text(light.shadow)));
     }
+    if (stopped(cancel)) return {};
+    const Stopwatch encoding;
+    if (!from_mesh) tree = encode_tree(depths, view, encode);
+    set_top_grid(tree, std::min(light.shadow.top_levels, tree.code.levels));
+    stats.encode_s += encoding.seconds();
+    return tree;
 }
 
 void count_trees(LightShadow& shadow) {
@@ -151,20 +169,13 @@ bool build_light_trees(const Mesh& mesh, const std::vector<NeededNodes>* needed,
         BuildParams params;
         params.receivers = light.shadow.receivers;
         params.needed = needed == nullptr ? nullptr : &(*needed)[i];
-        const MultiresTree tree =
+        ShadowTree tree =
             build_tree(mesh, light, views[i], params, most_bytes - kept_bytes, exec, shadow.stats, cancel);
         if (stopped(cancel)) {
             shadow.trees.clear();
             return false;
         }
-        const Stopwatch encoding;
-        EncodeParams encode;
-        encode.code = chosen_code(light.shadow).code;
-        encode.layout = light.shadow.layout;
-        encode.exec = exec;
-        encode.top_levels = std::min(light.shadow.top_levels, tree.levels);
-        shadow.trees.push_back(encode_tree(tree, views[i], encode));
-        shadow.stats.encode_s += encoding.seconds();
+        shadow.trees.push_back(std::move(tree));
         kept_bytes += static_cast<std::int64_t>(shadow.trees.back().bytes + top_bytes(shadow.trees.back()));
     }
     count_trees(shadow);

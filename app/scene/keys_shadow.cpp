@@ -66,7 +66,7 @@ const KeyRows<ShadowSettings>& shadow_rows() {
         word_row_if_given(
             &ShadowSettings::scope, shadow_scope_words, "scope",
             "Compressed: build what the frame's pixels look up, or everything, to be kept while only "
-            "the camera moves. \"full\" where there is a cache or code \"mmh\" or \"dag\", else \"frame\"."),
+            "the camera moves. \"full\" where there is a cache or a code that needs it, else \"frame\"."),
         word_row_if_given(
             &ShadowSettings::filter, shadow_filter_words, "filter",
             "Compressed: filter texels, or squares of texels as large as the pixel is on the map, which "
@@ -87,7 +87,9 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "Compressed: how the tree is written. mh: by itself. The others, scope \"full\" alone, take "
             "more off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds "
             "to find; lookups read as many nodes. dag: structure and depths apart, all that is alike in "
-            "either written once; lookups read several times as much. auto: the smallest that is as fast "
+            "either written once; lookups read several times as much. facet: leaves hold planes and edges of "
+            "the mesh, so that it hardly grows with the resolution where these are few. auto: the smallest "
+            "that is as fast "
             "as mh and is waited for once: mmh with scope \"full\", a cache, filter_px 1 and at least 6 "
             "top_levels, else mh; `obscura check` tells which, and why. \"mh\" when not given."),
         word_row_if_given(&ShadowSettings::layout, tree_layout_words.all, "layout",

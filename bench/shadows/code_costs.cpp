@@ -31,7 +31,8 @@ std::vector<CodeTrial> code_trials() {
     return {{"MH", ShadowCode::mh},
             {"MMH", ShadowCode::mmh},
             {"DAG-MH", ShadowCode::dag, {paper_treelet_levels, paper_chunk_log2, false}},
-            {"DAG-MH, packed", ShadowCode::dag}};
+            {"DAG-MH, packed", ShadowCode::dag},
+            {"facet", ShadowCode::facet}};
 }
 
 constexpr int kernel_sides[] = {1, 3, 5};
@@ -79,12 +80,19 @@ std::vector<CodeCost> tree_costs(const Scene& scene, const MultiresTree& tree, c
         params.dag = trial.dag;
         params.exec = {best_isa(), options.threads.back()};
         params.top_levels = std::min(tree.levels, ShadowSettings{}.top_levels);
+        const ShadowCodeRow& row = row_of(trial.code);
+        const bool from_mesh = is_from_mesh(row, {});
         const Stopwatch watch;
-        trees.push_back({encode_tree(tree, view, params)});
+        if (from_mesh) {
+            trees.push_back({row.from_mesh(scene.mesh, view, {}, params, nullptr, nullptr)});
+            set_top_grid(trees.back()[0], params.top_levels);
+        } else {
+            trees.push_back({encode_tree(tree, view, params)});
+        }
         CodeCost cost;
         cost.code = trial.name;
         cost.bytes = trees.back()[0].bytes;
-        cost.build_s = build_s + watch.seconds();
+        cost.build_s = (from_mesh ? 0 : build_s) + watch.seconds();
         costs.push_back(std::move(cost));
     }
     // The shortest of some runs, in turns: what else the machine does is in none of them, if in few.

@@ -27,6 +27,7 @@ MethodStyle code_style(const std::string& code) {
         {linear_code, {"#D55E00", 10, 11}}, {voxel_code, {"#CC79A7", 12, 13}},
         {"MH", {"#000000", 4, 5}},          {"MMH", {"#56B4E9", 6, 7}},
         {"DAG-MH", {"#0072B2", 14, 15}},    {"DAG-MH, packed", {"#009E73", 6, 7}},
+        {"facet", {"#000000", 2, 3}},
     };
     for (const auto& [name, style] : styles) {
         if (code == name) return style;

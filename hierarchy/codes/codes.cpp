@@ -4,6 +4,7 @@
 #include "hierarchy/build_memory.h"
 #include "hierarchy/codes/decode.h"
 #include "hierarchy/dag/dag.h"
+#include "hierarchy/facet/facet.h"
 #include "hierarchy/mh/mh.h"
 #include "hierarchy/mmh/mmh.h"
 
@@ -13,6 +14,8 @@ const ShadowCodeRow shadow_codes[shadow_code_count] = {
     {ShadowCode::mh, false, node_construction_bytes, encode_mh, mh_fault_of, mh_text},
     {ShadowCode::mmh, true, mmh_construction_bytes, encode_mmh, mmh_fault_of, mmh_text},
     {ShadowCode::dag, true, dag_construction_bytes, encode_dag, dag_fault_of, dag_text},
+    {ShadowCode::facet, false, facet_construction_bytes, encode_facet, facet_fault_of, facet_text,
+     facet_from_mesh},
 };
 
 const ShadowCodeRow* find_code(ShadowCode code) {

@@ -45,7 +45,8 @@ void fill_top(const TreeCode& tree, TreePlace place, int depth, std::uint32_t x,
 
 float tree_value_at_level(const TreeCode& tree, std::uint32_t x, std::uint32_t y, int level) {
     return with_code(tree, [&]<class Code>(Code) {
-        return Code::depth(tree, descend<Code>(tree, Code::root(tree), tree.levels, level, x, y));
+        return depth_of<Code>(tree, descend<Code>(tree, Code::root(tree), tree.levels, level, x, y),
+                              static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), level);
     });
 }
 
@@ -64,7 +65,8 @@ float tree_value_from_top(const TreeCode& tree, std::uint32_t x, std::uint32_t y
             place.count = top[1].node;
             place.inside = top[1].value;
         }
-        return Code::depth(tree, descend<Code>(tree, place, height, 0, x, y));
+        return depth_of<Code>(tree, descend<Code>(tree, place, height, 0, x, y), static_cast<std::int32_t>(x),
+                              static_cast<std::int32_t>(y), 0);
     });
 }
 

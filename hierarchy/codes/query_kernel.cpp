@@ -92,7 +92,7 @@ OBSCURA_INLINE void descend_groups(const TreeCode& tree, const Group16 (&group)[
             descend(Code{}, tree, base, height, child_bit(height, group[k].x, group[k].y), d[k]);
     }
     for (int k = 0; k < n; ++k)
-        stored[k] = values(Code{}, tree, base, d[k]);
+        stored[k] = values_of<Code>(tree, base, d[k], group[k].x, group[k].y, level);
 }
 
 template <class Code>
@@ -129,13 +129,15 @@ OBSCURA_INLINE F32 stored_of_block(const TreeCode& tree, const std::uint8_t* bas
         // Far apart: each from its own place in the grid.
         const int at = enter<Code>(tree, g.x, g.y, g.inside, level, d);
         descend_to<Code>(tree, base, at, level, g.x, g.y, d);
-        return values(Code{}, tree, base, d);
+        return values_of<Code>(tree, base, d, g.x, g.y, level);
     }
     const TreePlace place = extend_path<Code>(tree, x0, y0, height, path);
-    if (height == level || place.node == no_tree_node) return splat(Code::depth(tree, place));
+    if (height == level || place.node == no_tree_node) {
+        if constexpr (!Code::varies) return splat(Code::depth(tree, place));
+    }
     d = descents_from<Code>(place, inside);
     descend_to<Code>(tree, base, height, level, g.x, g.y, d);
-    return values(Code{}, tree, base, d);
+    return values_of<Code>(tree, base, d, g.x, g.y, level);
 }
 
 template <class Code>

@@ -12,7 +12,7 @@ float value_of(const TreeCode& tree, std::int32_t x, std::int32_t y, int level) 
     TreePlace place = Code::root(tree);
     for (int height = tree.levels; height > level && place.node != no_tree_node; --height)
         place = Code::child(tree, place, height, x, y);
-    return Code::depth(tree, place);
+    return depth_of<Code>(tree, place, x, y, level);
 }
 
 }  // namespace

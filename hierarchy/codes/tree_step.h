@@ -10,10 +10,13 @@
 //   child(tree, place, height, x, y)   from a node of height `height` (>= 1) to its child that holds texel
 //                                      (x, y); the descent must not have ended
 //   depth(tree, place)                 the depth that the values on the way come to
+//   varies                             whether that may differ from texel to texel where a descent ends; then
+//                                      depth(tree, place, x, y)
 
 #include <cstdint>
 
 #include "hierarchy/dag/dag_step.h"
+#include "hierarchy/facet/facet_step.h"
 #include "hierarchy/mh/mh_step.h"
 #include "hierarchy/mmh/mmh_step.h"
 #include "hierarchy/tree_code.h"
@@ -25,7 +28,24 @@ template <class F>
 OBSCURA_TREE_INLINE auto with_code(const TreeCode& tree, F&& f) {
     if (tree.code == ShadowCode::mmh) return f(MmhCode{});
     if (tree.code == ShadowCode::dag) return f(DagCode{});
+    if (tree.code == ShadowCode::facet) return f(FacetCode{});
     return with_mh_layout(tree, f);
+}
+
+/// The coordinate of the texel that stands for a square of 2^level texels where values vary: its middle one.
+OBSCURA_TREE_INLINE std::int32_t middle_of(std::int32_t x, int level) {
+    return level == 0 ? x : (x >> level << level) | 1 << (level - 1);
+}
+
+/// Depth of the square of 2^level texels that holds texel (x, y), at `place`, where its descent ended.
+template <class Code>
+OBSCURA_TREE_INLINE float depth_of(const TreeCode& tree, TreePlace place, std::int32_t x, std::int32_t y,
+                                   int level) {
+    if constexpr (Code::varies) {
+        return Code::depth(tree, place, middle_of(x, level), middle_of(y, level));
+    } else {
+        return Code::depth(tree, place);
+    }
 }
 
 /// Height of the lowest node that holds both points whose coordinates differ in `bits` (x bits | y bits).

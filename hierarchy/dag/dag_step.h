@@ -21,6 +21,7 @@ namespace obscura {
 struct DagCode {
     static constexpr std::uint32_t unit_bytes = 4;
     static constexpr bool counts_values = true;
+    static constexpr bool varies = false;
 
     static OBSCURA_TREE_INLINE std::uint32_t bytes_at(const TreeCode& tree, std::uint64_t byte) {
         std::uint32_t bits;

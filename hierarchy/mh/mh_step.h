@@ -27,6 +27,7 @@ struct MhCode {
     }
 
     static constexpr bool counts_values = false;
+    static constexpr bool varies = false;
 
     static OBSCURA_TREE_INLINE TreePlace root(const TreeCode&) { return {0, header, 0, 0}; }
 

@@ -25,6 +25,7 @@ struct MmhCode {
     }
 
     static constexpr bool counts_values = false;
+    static constexpr bool varies = false;
 
     static OBSCURA_TREE_INLINE TreePlace root(const TreeCode& tree) { return {0, word(tree, header), 0, 0}; }
 

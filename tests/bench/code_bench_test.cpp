@@ -18,7 +18,7 @@ TEST(CodeBench, ASmallRun) {
     const std::vector<CodeRow> rows = measure_codes(recipes[0], {128, 256}, true, options);
     ASSERT_EQ(rows.size(), 2u);
     for (const CodeRow& row : rows) {
-        ASSERT_EQ(row.costs.size(), 8u);
+        ASSERT_EQ(row.costs.size(), 9u);
         const auto bytes = [&](const char* code) {
             const CodeCost* cost = row.cost(code);
             EXPECT_NE(cost, nullptr) << code;
@@ -28,6 +28,7 @@ TEST(CodeBench, ASmallRun) {
         EXPECT_EQ(bytes("MMH"), row.mmh_bytes());
         EXPECT_LT(bytes("MMH"), bytes("MH"));
         EXPECT_LT(bytes("DAG-MH, packed"), bytes("DAG-MH"));
+        EXPECT_GT(bytes("facet"), 0u);
         EXPECT_EQ(bytes(dense_code),
                   4 * static_cast<std::uint64_t>(row.size) * static_cast<std::uint64_t>(row.size));
         EXPECT_LT(bytes(constant_code), bytes(dense_code));
@@ -41,11 +42,11 @@ TEST(CodeBench, ASmallRun) {
         }
     }
     const std::string csv = cost_csv(rows);
-    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 8);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * 9);
     EXPECT_NE(cost_markdown(rows).find("| city | 256 | voxel DAG |"), std::string::npos);
     const PanelChart chart = cost_chart(rows);
     ASSERT_EQ(chart.panels.size(), 1u);
-    EXPECT_EQ(chart.panels[0].lines.size(), 8u);
+    EXPECT_EQ(chart.panels[0].lines.size(), 9u);
     EXPECT_EQ(chart.panels[0].lines[0].points.size(), 2u);
 }
 

@@ -11,6 +11,7 @@
 #include "app/frame/scene_light.h"
 #include "hierarchy/codes/codes.h"
 #include "hierarchy/codes/decode.h"
+#include "hierarchy/facet/facet.h"
 #include "raster/view.h"
 #include "tests/filters/tree_pcf_samples.h"
 #include "tests/frame/scenes.h"
@@ -215,6 +216,57 @@ TEST(TreePcfScenes, LightsOfEveryKindSeeWhatTheirDenseMapsShow) {
             EXPECT_GT(naive, 0);
             EXPECT_LE((side == 1 ? 1 : 3) * shared, naive) << "side " << side;
         }
+    }
+}
+
+/// Where values vary within a leaf, each tap has its own: what lookups of single texels find, level by level.
+TEST(TreePcfScenes, PlanesAndEdgesAreFilteredTexelByTexel) {
+    for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
+        Scene scene = frame_scenes::empty_scene(128, 64);
+        frame_scenes::add(scene, box({-4, -0.5, -4}, {4, 0, 4}), 0);
+        frame_scenes::add(scene, box({-1.6f, 0, -0.6f}, {-0.6f, 1.4f, 0.5f}), 0);
+        frame_scenes::add(scene, sphere(0.7, 16, 9), 0, {0.7f, 0.9f, 0.2f});
+        scene.camera.eye = {1.5, 3, 5};
+        scene.camera.look_at = {0, 0.3, 0};
+        SceneLight light = kind == LightKind::directional
+                               ? frame_scenes::directional({0.6, -1, -0.3}, {1, 1, 1}, 3, 256)
+                               : frame_scenes::at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
+        light.light.outer_cone_deg = 70;
+        light.shadow.method = ShadowMethod::none;
+        scene.lights.push_back(light);
+        const std::vector<SurfaceBlock> blocks = surfaces_of(scene);
+        ShadowMap map;
+        map.views = shadow_views(light, bounds_of(scene.mesh));
+        std::vector<ShadowTree> trees;
+        std::uint64_t planes = 0, edges = 0;
+        for (const LightView& view : map.views) {
+            BuildParams params;
+            params.receivers = Receivers::static_only;
+            trees.push_back(facet_from_mesh(scene.mesh, view, params, {}, nullptr, nullptr));
+            planes += facet_stats(trees.back()).planes;
+            edges += facet_stats(trees.back()).edges;
+            map.stored.push_back(chosen::dense(view.width, [&](int x, int y) {
+                return tree_value(trees.back().code, static_cast<std::uint32_t>(x),
+                                  static_cast<std::uint32_t>(y));
+            }));
+        }
+        EXPECT_GT(planes, 3u);
+        EXPECT_GT(edges, 3u);
+        for (const int side : {1, 3, 5}) {
+            light.shadow.filter_px = side;
+            const Visibility expected = by_map(blocks, pcf_light(light, map, scene.camera.eye));
+            EXPECT_GT(std::count(expected.begin(), expected.end(), 1.0f), 1000);
+            EXPECT_GT(std::count(expected.begin(), expected.end(), 0.0f), 300);
+            expect_all(blocks, pcf_light(light, std::span<const ShadowTree>(trees), scene.camera.eye),
+                       expected, "facet, light " + std::to_string(static_cast<int>(kind)));
+        }
+        // Coarser levels: shared as naive, every instruction set as ref.
+        light.shadow.filter_px = 3;
+        PcfLight by_trees = pcf_light(light, std::span<const ShadowTree>(trees), scene.camera.eye);
+        filter_hierarchically(by_trees, camera_rays(scene.camera, 32, 16));
+        const Visibility expected = visibility_of(
+            blocks, [&](const SurfaceBlock& s, float* v) { ref::naive_tree_pcf_block(s, by_trees, v); });
+        expect_all(blocks, by_trees, expected, "facet, by levels");
     }
 }
 

@@ -249,7 +249,7 @@ TEST(CompressedFrame, ShowsTheSameInEveryCodeButInsideSolids) {
         return render_frame(scene);
     };
     const Frame plain = without_grids(ShadowCode::mh);
-    for (const ShadowCode code : {ShadowCode::mmh, ShadowCode::dag}) {
+    for (const ShadowCode code : {ShadowCode::mmh, ShadowCode::dag, ShadowCode::facet}) {
         const Frame other = without_grids(code);
         std::uint64_t mh_bytes = 0, bytes = 0;
         for (std::size_t i = 0; i < plain.stats.lights.size(); ++i) {
@@ -269,7 +269,7 @@ TEST(CompressedFrame, ShowsTheSameInEveryCodeButInsideSolids) {
 }
 
 TEST(CompressedFrame, OfMergedTreesIsTheSameForEveryExecAndCrop) {
-    for (const ShadowCode code : {ShadowCode::mmh, ShadowCode::dag})
+    for (const ShadowCode code : {ShadowCode::mmh, ShadowCode::dag, ShadowCode::facet})
         expect_one_picture(whole_trees(code), {37, 21, 90, 70}, {Isa::ref, 1}, {3});
 }
 

@@ -33,7 +33,8 @@ inline constexpr CodeCase code_cases[] = {
     {"packed", ShadowCode::dag, TreeLayout::fractions, {4, 6}},
     {"packed_bits", ShadowCode::dag, TreeLayout::float_bits, {3, 5}},
     {"packed_low", ShadowCode::dag, TreeLayout::fractions, {1, 4}},
-    {"packed_tall", ShadowCode::dag, TreeLayout::fractions, {5, 7}}};
+    {"packed_tall", ShadowCode::dag, TreeLayout::fractions, {5, 7}},
+    {"facet", ShadowCode::facet, TreeLayout::floats}};
 
 inline EncodeParams params_of(const CodeCase& c, int top_levels = 0, int offset_bits = 0,
                               double bearable_padding = 1e9) {

@@ -121,7 +121,9 @@ void check_every_texel(const Lit& scene, int side, Receivers receivers) {
     for (const ShadowCodeRow& row : shadow_codes) {
         EncodeParams encode;
         encode.code = row.code;
-        encoded.push_back(encode_tree(tree, view, encode));
+        encoded.push_back(is_from_mesh(row, params)
+                              ? row.from_mesh(scene.mesh, view, params, encode, nullptr, nullptr)
+                              : encode_tree(tree, view, encode));
     }
     std::vector<Decoded> decoded(encoded.begin(), encoded.end());
     const int rows = std::min(side, 1024);
@@ -160,16 +162,25 @@ void check_samples(const Lit& scene, int side, bool whole, int count) {
     }
     needed.finish();
     if (!whole) params.needed = &needed;
-    const ShadowTree tree = encode_tree(build_shadow_tree(scene.mesh, view, params, Exec{}), view);
+    std::vector<ShadowTree> trees{encode_tree(build_shadow_tree(scene.mesh, view, params, Exec{}), view)};
+    for (const ShadowCodeRow& row : shadow_codes) {
+        if (is_from_mesh(row, params))
+            trees.push_back(row.from_mesh(scene.mesh, view, params, {}, nullptr, nullptr));
+    }
     RegionOracle oracle(scene.mesh, view, Receivers::any);
-    Decoded decoded(tree);
-    std::size_t outside = 0, covered = 0;
+    std::vector<Decoded> decoded(trees.begin(), trees.end());
+    std::vector<std::size_t> outside(trees.size(), 0);
+    std::size_t covered = 0;
     for (const auto& [x, y] : at) {
         const std::vector<DepthInterval>& intervals = oracle.intervals(x, y);
-        outside += decoded.failures(intervals.data(), x, y, region_side, region_side);
+        for (std::size_t i = 0; i < trees.size(); ++i)
+            outside[i] += decoded[i].failures(intervals.data(), x, y, region_side, region_side);
         covered += intervals[0] != DepthInterval{};
     }
-    EXPECT_EQ(outside, 0u) << "of " << decoded.checked << " texels";
+    for (std::size_t i = 0; i < trees.size(); ++i) {
+        EXPECT_EQ(outside[i], 0u) << name_of(trees[i].code.code) << ", of " << decoded[i].checked
+                                  << " texels";
+    }
     EXPECT_GT(covered, at.size() / 8) << "samples that see nothing prove nothing";
 }
 

@@ -219,7 +219,7 @@ TEST(TreeFile, ReadsFilesOfBefore) {
         EXPECT_TRUE(try_trees(bytes_of(entry.path()), false));
         ++files;
     }
-    EXPECT_EQ(files, 20);
+    EXPECT_EQ(files, 23);
 }
 
 TEST(TreeFile, RefusesTreesThatShareChildren) {

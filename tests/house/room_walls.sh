@@ -17,7 +17,8 @@ hierarchy        raster
 hierarchy/mh     hierarchy
 hierarchy/mmh    hierarchy
 hierarchy/dag    hierarchy
-hierarchy/codes  hierarchy/dag hierarchy/mh hierarchy/mmh
+hierarchy/facet  hierarchy
+hierarchy/codes  hierarchy/dag hierarchy/facet hierarchy/mh hierarchy/mmh
 hierarchy/stack  hierarchy
 filters          hierarchy/codes
 optics/field     core

@@ -192,7 +192,7 @@ const std::vector<BadScene>& bad_scenes() {
          "s.toml:8:17: 'layout' must be one of \"words24\", \"words16\", \"bytes16\", not \"words32\"; did "
          "you mean 'words24'?"},
         {"UnknownCode", light(directional + "shadow.code = \"tree\""),
-         "s.toml:8:15: 'code' must be one of \"auto\", \"mh\", \"mmh\", \"dag\", not \"tree\""},
+         "s.toml:8:15: 'code' must be one of \"auto\", \"mh\", \"mmh\", \"dag\", \"facet\", not \"tree\""},
         {"LayoutOfMergedTrees", light(directional + "shadow = {code = \"mmh\", layout = \"words16\"}"),
          "s.toml:8:25: 'layout' needs code = \"mh\""},
         {"PartsOfMergedTrees", light(directional + "shadow = {code = \"mmh\", scope = \"frame\"}"),
