@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/num.h"
 
 namespace obscura {
 namespace {
@@ -66,6 +67,78 @@ std::vector<SunStep> sun_steps(const SunPath& path) {
             if (sun.apparent_elevation_deg <= 0) continue;
             suns.push_back({middle, sun.azimuth_deg, sun.apparent_elevation_deg, part.hours()});
         }
+    }
+    return suns;
+}
+
+namespace {
+
+/// Where the tip of the shadow of a rod of 1 m lies, in metres.
+struct Tip {
+    double east = 0, north = 0;
+};
+
+Tip tip_of(const SunPosition& sun) {
+    const double length = num::cos_deg(sun.apparent_elevation_deg) / num::sin_deg(sun.apparent_elevation_deg);
+    return {-length * num::sin_deg(sun.azimuth_deg), -length * num::cos_deg(sun.azimuth_deg)};
+}
+
+/// A short part of a path with the sun high enough throughout, and the share of the travel's integral up to
+/// its end.
+struct TravelPart {
+    double from_h, to_h, travel;
+};
+
+std::vector<TravelPart> travel_parts(const SunPath& path, double least_elevation_deg, int parts) {
+    std::vector<TravelPart> found;
+    double travel = 0;
+    const auto hour_at = [&](int i) {
+        return i < parts ? path.from_h + (path.to_h - path.from_h) * i / parts : path.to_h;
+    };
+    SunPosition before = sun_at(path, hour_at(0));
+    for (int i = 0; i < parts; ++i) {
+        const double from = hour_at(i), to = hour_at(i + 1);
+        const SunPosition now = sun_at(path, to);
+        if (before.apparent_elevation_deg >= least_elevation_deg &&
+            now.apparent_elevation_deg >= least_elevation_deg) {
+            const Tip a = tip_of(before), b = tip_of(now);
+            const double moved =
+                std::sqrt((b.east - a.east) * (b.east - a.east) + (b.north - a.north) * (b.north - a.north));
+            travel += std::sqrt(moved * (to - from));
+            found.push_back({from, to, travel});
+        }
+        before = now;
+    }
+    return found;
+}
+
+}  // namespace
+
+std::vector<SunStep> sun_steps_by_travel(const SunPath& path, double least_elevation_deg) {
+    CHECK(path.from_h < path.to_h && path.steps >= 1);
+    CHECK(least_elevation_deg > 0 && least_elevation_deg < 90);
+    const std::vector<TravelPart> parts =
+        travel_parts(path, least_elevation_deg, std::max(4096, 16 * path.steps));
+    std::vector<SunStep> suns;
+    if (parts.empty()) return suns;
+    const double whole = parts.back().travel;
+    std::size_t at = 0;
+    for (int i = 0; i < path.steps; ++i) {
+        SunStep step;
+        const double middle = whole * (i + 0.5) / path.steps, end = whole * (i + 1) / path.steps;
+        bool placed = false;
+        for (; at < parts.size() && (i + 1 == path.steps || parts[at].travel <= end); ++at) {
+            step.hours += parts[at].to_h - parts[at].from_h;
+            if (placed || parts[at].travel < middle) continue;
+            placed = true;
+            step.hour_h = 0.5 * (parts[at].from_h + parts[at].to_h);
+        }
+        // A day of few parts has steps without any.
+        if (!placed) continue;
+        const SunPosition sun = sun_at(path, step.hour_h);
+        step.azimuth_deg = sun.azimuth_deg;
+        step.elevation_deg = sun.apparent_elevation_deg;
+        suns.push_back(step);
     }
     return suns;
 }

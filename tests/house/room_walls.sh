@@ -13,12 +13,14 @@ core/sky         core
 scenes           core
 raster           core
 raster/exact     raster
+raster/heights   raster
 hierarchy        raster
 hierarchy/mh     hierarchy
 hierarchy/mmh    hierarchy
 hierarchy/dag    hierarchy
 hierarchy/codes  hierarchy/dag hierarchy/mh hierarchy/mmh
 hierarchy/stack  hierarchy
+hierarchy/terrain hierarchy raster/heights
 filters          hierarchy/codes
 optics/field     core
 optics/thesis    optics/field
