@@ -24,6 +24,7 @@ struct ShadowBits {
     const std::uint64_t* row(int y) const { return words.data() + words_per_row * y; }
     bool operator()(int x, int y) const { return (row(y)[x >> 6] >> (x & 63) & 1) != 0; }
     void set(int x, int y) { row(y)[x >> 6] |= std::uint64_t{1} << (x & 63); }
+    void clear(int x, int y) { row(y)[x >> 6] &= ~(std::uint64_t{1} << (x & 63)); }
     friend bool operator==(const ShadowBits&, const ShadowBits&) = default;
 };
 
@@ -31,5 +32,8 @@ struct ShadowBits {
 ShadowBits united(const ShadowBits& a, const ShadowBits& b);
 
 std::int64_t count_of(const ShadowBits& bits);
+
+/// Samples whose bit is set, and those of all their eight neighbours, too; beyond the map all count as set.
+ShadowBits eroded(const ShadowBits& bits);
 
 }  // namespace obscura

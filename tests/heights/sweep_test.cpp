@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "raster/heights/height_march.h"
+#include "raster/heights/height_near.h"
 #include "raster/heights/height_sweep.h"
 #include "tests/heights/drawn_heights.h"
 
@@ -48,6 +49,31 @@ TEST(HeightSweep, NearOrFarIsTheWholeShadow) {
         const ShadowBits between = march_shadows(field, sun, {.first = 1, .last = 6});
         ASSERT_EQ(united(between, maps[3]), maps[1]) << "seed " << seed;
     }
+}
+
+TEST(HeightNear, EqualsTheMarchOnDrawnGrids) {
+    std::int64_t hidden = 0;
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+        drawn::Random random(seed);
+        const HeightField field = drawn::heights(random);
+        const HeightSun sun = drawn::sun(random, field);
+        ShadowBits all(field.width(), field.height()), some = all;
+        for (int y = 0; y < field.height(); ++y) {
+            for (int x = 0; x < field.width(); ++x) {
+                all.set(x, y);
+                if (drawn::below(random, 3) == 0) some.set(x, y);
+            }
+        }
+        for (const int last : {0, 1, 2, 6, 1000}) {
+            ShadowBits marched = march_shadows(field, sun, {.first = 0, .last = last});
+            ASSERT_EQ(near_shadows(field, sun, last, all), marched) << "seed " << seed << ", last " << last;
+            hidden += count_of(marched);
+            for (std::size_t i = 0; i < some.words.size(); ++i)
+                marched.words[i] &= some.words[i];
+            ASSERT_EQ(near_shadows(field, sun, last, some), marched) << "seed " << seed;
+        }
+    }
+    EXPECT_GT(hidden, 100'000);
 }
 
 TEST(HeightSweep, TurnedAndMirroredGroundHasTurnedAndMirroredShadows) {
