@@ -30,7 +30,7 @@ stereo/solver    stereo
 stereo/thesis    stereo/solver
 app/models       core
 app/elevation    raster/heights
-app/scene        app/models core/sky optics stereo stereo/thesis scenes
+app/scene        app/models app/elevation core/sky optics stereo stereo/thesis scenes
 app/glare        app/scene
 app/frame        app/glare raster/exact hierarchy/stack
 app/pair         app/frame
