@@ -133,4 +133,48 @@ ShadowBits with_near_shadows(const HeightField& field, const FarSun& sun, const 
     return united(map, near_shadows(field, sun.direction, threshold, lit));
 }
 
+Image<float> lit_hours(const HeightField& field, std::span<const FarSun> suns, const Exec& exec,
+                       const FarDayWatch& watch) {
+    constexpr std::size_t together = 16;
+    constexpr int whole[] = {0};
+    Image<float> hours(field.width(), field.height());
+    for (std::size_t first = 0; first < suns.size() && !stopped(watch.cancel); first += together) {
+        const auto part = suns.subspan(first, std::min(together, suns.size() - first));
+        std::vector<ShadowBits> dark(part.size());
+        parallel_for(part.size(), exec,
+                     [&](std::size_t i) { dark[i] = sweep_shadows(field, part[i].direction, whole)[0]; });
+        parallel_for(static_cast<std::size_t>(field.height()), exec, [&](std::size_t row) {
+            const int y = static_cast<int>(row);
+            for (std::size_t i = 0; i < part.size(); ++i) {
+                const auto more = static_cast<float>(part[i].hours);
+                for (int x = 0; x < field.width(); ++x)
+                    hours(x, y) += dark[i](x, y) ? 0.0f : more;
+            }
+        });
+        if (watch.progress) watch.progress(static_cast<int>(first + part.size()));
+    }
+    return hours;
+}
+
+std::uint64_t far_day_hash(const HeightField& field, std::span<const FarSun> suns,
+                           const FarDayParams& params) {
+    const auto& heights = field.height_q16.pixels;
+    Hasher h;
+    h.value(bulk_hash(heights.data(), heights.size() * sizeof heights[0]))
+        .value(field.width())
+        .value(field.height());
+    h.value(field.cell_x_m).value(field.cell_y_m).value(field.diagonal).value(params);
+    for (const FarSun& s : suns) {
+        const HeightSun& d = s.direction;
+        h.value(s.hour_h)
+            .value(s.hours)
+            .value(s.azimuth_deg)
+            .value(s.elevation_deg)
+            .value(d.slope_q20)
+            .value(d.rise_q36);
+        h.value(d.lines_are_columns).value(d.step_line).value(d.step_along);
+    }
+    return h.state;
+}
+
 }  // namespace obscura

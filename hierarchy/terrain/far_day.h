@@ -105,4 +105,12 @@ std::vector<ShadowBits> far_maps(const FarDay& day, int group, const Exec& exec,
 ShadowBits with_near_shadows(const HeightField& field, const FarSun& sun, const ShadowBits& map,
                              int threshold);
 
+/// Hours of sun of every sample: the sum of FarSun::hours of those that reach it, in their order.
+Image<float> lit_hours(const HeightField& field, std::span<const FarSun> suns, const Exec& exec,
+                       const FarDayWatch& watch = {});
+
+/// A hash of all that make_far_day() makes its result from, for the key of its file.
+std::uint64_t far_day_hash(const HeightField& field, std::span<const FarSun> suns,
+                           const FarDayParams& params);
+
 }  // namespace obscura

@@ -13,6 +13,9 @@
 
 namespace obscura {
 
+/// The lower half of the key of files whose upper half is far_day_hash(): the version of what is coded.
+constexpr std::uint64_t far_file_kind = 1;
+
 /// Writes atomically. Throws OutputError.
 void write_far_file(const std::filesystem::path& path, const FarDay& day, const TreeFileKey& key,
                     Existing existing = Existing::replace);

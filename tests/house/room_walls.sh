@@ -35,7 +35,7 @@ app/glare        app/scene
 app/frame        app/glare raster/exact hierarchy/stack
 app/pair         app/frame
 app/report       app/pair lessons/drawing
-app/cli          app/report
+app/cli          app/report hierarchy/terrain
 lessons/drawing  core
 lessons          core/sky optics stereo stereo/thesis scenes raster/exact hierarchy/stack lessons/drawing
 bench/embree     core
@@ -45,7 +45,8 @@ bench/peer_codes raster
 bench/shadows    app/frame hierarchy/stack bench/harness bench/embree bench/peer_codes
 bench/diffraction bench/harness
 bench/stereo     bench/harness
-bench            bench/raster bench/shadows bench/diffraction bench/stereo
+bench/terrain    app/scene hierarchy/terrain bench/harness bench/embree
+bench            bench/raster bench/shadows bench/diffraction bench/stereo bench/terrain
 END
 }
 
