@@ -293,17 +293,12 @@ void add_terrain(Builder& b, const SceneTable& table) {
     });
     const std::string whose = fmt::format("terrain '{}'", text(table, "id"));
     check_total(b, whose, height_mesh_triangles(model.field.width(), model.field.height()));
-    if (model.holes > 0)
-        add_note(b, fmt::format("{}: {} samples without a height were filled", whose, model.holes));
+    if (model.holes > 0) add_note(b, fmt::format("{}: {} samples without a height", whose, model.holes));
     Mesh mesh = height_mesh(model.field, options.mesh);
     set_objects(table, options.casts_shadow, mesh);
-    auto material = static_cast<std::uint32_t>(b.scene.materials.size());
-    if (table.has("material")) {
-        material = b.materials.find(text(table, "material"))->second;
-    } else {
-        b.scene.textures.push_back(terrain_picture(text(table, "id") + "/ground", model, b.limits));
-        b.scene.materials.push_back(terrain_material(b.scene.textures));
-    }
+    const std::uint32_t material = table.has("material")
+                                       ? b.materials.find(text(table, "material"))->second
+                                       : add_terrain_look(b.scene, text(table, "id"), model);
     mesh.material.assign(mesh.triangles.size(), material);
     check_coordinates(b, table, "terrain", mesh);
     append_mesh(b.scene.mesh, mesh);

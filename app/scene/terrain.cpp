@@ -52,34 +52,6 @@ double slope_at(const HeightField& f, int x, int y) {
     return std::sqrt(dx * dx + dy * dy);
 }
 
-}  // namespace
-
-ElevationModel load_elevation(const std::filesystem::path& file, const std::string& named,
-                              const FileAccess& access, const ElevationOptions& options) {
-    const std::string bytes = read_file(file, largest_file);
-    std::optional<std::string> description;
-    const std::string beside = sidecar_name(file.filename().string());
-    if (!beside.empty()) {
-        try {
-            description = read_file(resolve_beside(access, file.parent_path(), beside), largest_file);
-        } catch (const MissingFile&) {
-            // Then the scene has to say what it would have said.
-        }
-    }
-    ElevationModel model = decode_elevation(bytes, named, description, options);
-    if (model.field.width() < 2 || model.field.height() < 2)
-        throw InputError(named, "has no cell: a terrain has two samples or more both ways");
-    return model;
-}
-
-Material terrain_material(const std::vector<Texture>& textures) {
-    Material look{.name = textures.back().name};
-    look.base_color = {1, 1, 1};
-    look.roughness = 0.95f;
-    look.texture = static_cast<std::int32_t>(textures.size()) - 1;
-    return look;
-}
-
 Texture terrain_picture(const std::string& name, const ElevationModel& model, const Limits& limits) {
     const HeightField& f = model.field;
     int step = 1;
@@ -102,6 +74,36 @@ Texture terrain_picture(const std::string& name, const ElevationModel& model, co
         }
     }
     return make_texture(name, picture.view());
+}
+
+}  // namespace
+
+ElevationModel load_elevation(const std::filesystem::path& file, const std::string& named,
+                              const FileAccess& access, const ElevationOptions& options) {
+    const std::string bytes = read_file(file, largest_file);
+    std::optional<std::string> description;
+    const std::string beside = sidecar_name(file.filename().string());
+    if (!beside.empty()) {
+        try {
+            description = read_file(resolve_beside(access, file.parent_path(), beside), largest_file);
+        } catch (const MissingFile&) {
+            // Then the scene has to say what it would have said.
+        }
+    }
+    ElevationModel model = decode_elevation(bytes, named, description, options);
+    if (model.field.width() < 2 || model.field.height() < 2)
+        throw InputError(named, "has no cell: a terrain has two samples or more both ways");
+    return model;
+}
+
+std::uint32_t add_terrain_look(Scene& scene, const std::string& id, const ElevationModel& model) {
+    Material look{.name = id + "/ground"};
+    look.base_color = {1, 1, 1};
+    look.roughness = 0.95f;
+    look.texture = static_cast<std::int32_t>(scene.textures.size());
+    scene.textures.push_back(terrain_picture(look.name, model, scene.limits));
+    scene.materials.push_back(std::move(look));
+    return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
 }  // namespace obscura

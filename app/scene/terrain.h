@@ -27,12 +27,10 @@ TerrainOptions terrain_options_of(const SceneTable& terrain, const Limits& limit
 ElevationModel load_elevation(const std::filesystem::path& file, const std::string& named,
                               const FileAccess& access, const ElevationOptions& options);
 
-/// The material that shows the last of the textures, under its name.
-Material terrain_material(const std::vector<Texture>& textures);
-
-/// What a terrain without a material looks like: meadows, forest, rock and snow by height between the least
-/// and the greatest and by slope, level ground at 0 m as water. At most limits.texture_px a side and
-/// texture_mib.
-Texture terrain_picture(const std::string& name, const ElevationModel& model, const Limits& limits);
+/// What a terrain without a material looks like: meadows, rock and snow by height between the least and the
+/// greatest and by slope, level ground at 0 m and below as water. Adds a texture, of at most
+/// scene.limits.texture_px a side and half of texture_mib, and the material "id/ground" that shows it, whose
+/// number is returned.
+std::uint32_t add_terrain_look(Scene& scene, const std::string& id, const ElevationModel& model);
 
 }  // namespace obscura

@@ -88,8 +88,7 @@ int bench_terrain(const BenchOptions& options) {
             row.embree ? row.embree->ns_per_sample : 0.0, row.embree ? share(*row.embree) : 0.0, row.far_bits,
             row.paper_bits.value_or(0), row.decode_ns));
     }
-    if (rows.empty())
-        throw UsageError(fmt::format("no elevation model has \"{}\" in its name", options.scene));
+    check_chosen(!rows.empty(), options, "elevation model");
     write_files(
         options,
         {{"terrain.csv", terrain_csv(rows)},

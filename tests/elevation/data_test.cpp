@@ -11,6 +11,7 @@
 #include "core/sun_path.h"
 #include "raster/heights/height_march.h"
 #include "raster/heights/height_sweep.h"
+#include "tests/core/shared_folder.h"
 
 namespace obscura {
 namespace {
@@ -22,7 +23,7 @@ std::string bytes_of(const std::filesystem::path& path) {
 }
 
 std::optional<HeightField> real_ground(const std::string& name) {
-    const std::filesystem::path folder = std::filesystem::path(OBSCURA_SOURCE_DIR) / "../shared/data/terrain";
+    const std::filesystem::path folder = shared_folder("data/terrain");
     if (!std::filesystem::exists(folder / (name + ".pgm"))) return {};
     return decode_elevation(bytes_of(folder / (name + ".pgm")), name + ".pgm",
                             bytes_of(folder / (name + ".json")), {})
@@ -47,7 +48,7 @@ std::vector<HeightSun> day_of(const HeightField& field, int step) {
 
 TEST(TerrainData, JacksborosSweepIsItsMarch) {
     const auto field = real_ground("jacksboro");
-    if (!field) GTEST_SKIP() << "no data";
+    if (!field) GTEST_SKIP() << "SKIPPED: no data/terrain";
     SweepStats stats;
     std::int64_t dark = 0;
     for (const HeightSun& sun : day_of(*field, all_cases() ? 1 : 40)) {
@@ -65,7 +66,7 @@ TEST(TerrainData, JacksborosSweepIsItsMarch) {
 TEST(TerrainData, OtherGroundOnSamples) {
     for (const char* name : {"baltoro_srtm3", "etna_srtm3", "sierra_30m", "greenriver_lidar_1m"}) {
         const auto field = real_ground(name);
-        if (!field) GTEST_SKIP() << "no data";
+        if (!field) GTEST_SKIP() << "SKIPPED: no data/terrain";
         std::int64_t compared = 0, dark = 0;
         for (const HeightSun& sun : day_of(*field, all_cases() ? 8 : 79)) {
             constexpr int thresholds[] = {0, 16};
