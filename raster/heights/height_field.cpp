@@ -50,4 +50,19 @@ HeightField mirrored(const HeightField& field) {
     return out;
 }
 
+HeightField curved(const HeightField& field, double refraction) {
+    constexpr double earth_radius_m = 6'371'000;
+    HeightField out = field;
+    for (int y = 0; y < field.height(); ++y) {
+        const double north_m = (y - 0.5 * (field.height() - 1)) * field.cell_y_m;
+        for (int x = 0; x < field.width(); ++x) {
+            const double east_m = (x - 0.5 * (field.width() - 1)) * field.cell_x_m;
+            const double drop_m =
+                (east_m * east_m + north_m * north_m) * (1 - refraction) / (2 * earth_radius_m);
+            out.height_q16(x, y) = height_q16_of(metres_of(field.height_q16(x, y)) - drop_m);
+        }
+    }
+    return out;
+}
+
 }  // namespace obscura

@@ -50,4 +50,10 @@ HeightRange height_range(const HeightField& field);
 HeightField turned(const HeightField& field);
 HeightField mirrored(const HeightField& field);
 
+/// The same ground as light sees it over the round earth: lowered by r^2 (1 - refraction) / 2R, with r from
+/// the grid's middle, R = 6371 km and the coefficient of terrestrial refraction (0.13 by day), after which
+/// rays are straight. Heights are rounded once; from then on all is exact as for any field. A field that
+/// would leave the range of heights is a broken precondition.
+HeightField curved(const HeightField& field, double refraction);
+
 }  // namespace obscura

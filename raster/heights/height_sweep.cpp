@@ -95,13 +95,14 @@ class Sweep {
     void ask(int line, int d, ShadowBits& map) {
         if (d >= view_.lines - line) return;
         const int asking = line + d;
-        std::size_t i = 0;
+        const ProfileLine *at_u = profile_.lines.data(), *last = at_u + profile_.lines.size() - 1;
+        const double first = first_u(asking), rise = rise_m_ * asking, cell = static_cast<double>(cell_q20);
         for (int row = 0; row < view_.rows; ++row) {
-            const double u = first_u(asking) + static_cast<double>(row * cell_q20);
+            const double u = first + cell * row;
             if (u > profile_.end) return;
-            while (i + 1 < profile_.lines.size() && profile_.lines[i + 1].from <= u)
-                ++i;
-            const double above_m = profile_.lines[i].at(u) - g_m(asking, row);
+            while (at_u != last && at_u[1].from <= u)
+                ++at_u;
+            const double above_m = at_u->at(u) - (metres_of(view_.height_q16(asking, row)) + rise);
             if (above_m < -doubt_m_) continue;
             if (above_m <= doubt_m_) {
                 ++marched_;

@@ -8,7 +8,7 @@
 namespace obscura {
 namespace {
 
-constexpr double cell = static_cast<double>(cell_q20);
+constexpr double cell = static_cast<double>(cell_q20), per_cell = 1 / cell;
 
 void append(Profile& p, const ProfileLine& line, double from) {
     if (!p.lines.empty() && p.lines.back().is_line_of(line)) return;
@@ -22,8 +22,9 @@ void replace(Profile& p, const ProfileLine& line, double from) {
     append(p, line, from);
 }
 
-ProfileLine line_through(double u0, double g0, double u1, double g1) {
-    return {u0, u0, g0, (g1 - g0) / (u1 - u0)};
+/// From (u, g0) on, and to g1 one over per_u further.
+ProfileLine line_through(double u, double g0, double g1, double per_u) {
+    return {u, u, g0, (g1 - g0) * per_u};
 }
 
 /// Of two lines of which b is more than tolerance above a at `last` and not at `u`: the first number at which
@@ -45,14 +46,15 @@ double crossing(const ProfileLine& a, const ProfileLine& b, double u, double las
 void strip_along(const std::vector<double>& before, const std::vector<double>& now, const StripParams& s,
                  Profile& out) {
     const double row_u = s.slope_q20, diagonal_u = cell - row_u;
+    const double per_row = 1 / row_u, per_diagonal = 1 / diagonal_u;
     for (std::size_t j = 0; j + 1 < now.size(); ++j) {
         const double u = s.first_u + cell * static_cast<double>(j);
         const double left = now[j], right = now[j + 1], corner = before[j + 1];
         if (corner * cell > left * row_u + right * diagonal_u) {
-            if (diagonal_u > 0) append(out, line_through(u, left, u + diagonal_u, corner), u);
-            if (row_u > 0) append(out, line_through(u + diagonal_u, corner, u + cell, right), u + diagonal_u);
+            if (diagonal_u > 0) append(out, line_through(u, left, corner, per_diagonal), u);
+            if (row_u > 0) append(out, line_through(u + diagonal_u, corner, right, per_row), u + diagonal_u);
         } else {
-            append(out, line_through(u, left, u + cell, right), u);
+            append(out, line_through(u, left, right, per_cell), u);
         }
     }
 }
@@ -74,16 +76,17 @@ void join(const ProfileLine& first, double start, double u, double tolerance, Pr
 void strip_across(const std::vector<double>& before, const std::vector<double>& now, const StripParams& s,
                   Profile& out) {
     const double row_u = s.slope_q20, diagonal_u = cell + row_u;
+    const double per_row = 1 / row_u, per_diagonal = 1 / diagonal_u;
     for (std::size_t j = 0; j < now.size(); ++j) {
         const double u = s.first_u + cell * static_cast<double>(j), start = u - row_u;
         const bool last = j + 1 == now.size();
         const bool over = last || now[j] * diagonal_u > before[j] * cell + now[j + 1] * row_u;
         if (!over) {
-            join(line_through(start, before[j], u + cell, now[j + 1]), start, u, s.tolerance_m, out);
+            join(line_through(start, before[j], now[j + 1], per_diagonal), start, u, s.tolerance_m, out);
             continue;
         }
-        if (row_u > 0) join(line_through(start, before[j], u, now[j]), start, u, s.tolerance_m, out);
-        if (!last) replace(out, line_through(u, now[j], u + cell, now[j + 1]), u);
+        if (row_u > 0) join(line_through(start, before[j], now[j], per_row), start, u, s.tolerance_m, out);
+        if (!last) replace(out, line_through(u, now[j], now[j + 1], per_cell), u);
     }
 }
 
@@ -93,7 +96,7 @@ void line_profile(const std::vector<double>& now, double first_u, Profile& line)
     line.lines.clear();
     for (std::size_t j = 0; j + 1 < now.size(); ++j) {
         const double u = first_u + cell * static_cast<double>(j);
-        append(line, line_through(u, now[j], u + cell, now[j + 1]), u);
+        append(line, line_through(u, now[j], now[j + 1], per_cell), u);
     }
     line.end = first_u + cell * static_cast<double>(now.size() - 1);
 }
@@ -111,33 +114,41 @@ void strip_profile(const std::vector<double>& before, const std::vector<double>&
 
 void upper_envelope(const Profile& far, const Profile& strip, double begin, double tolerance_m,
                     Profile& out) {
+    const ProfileLine *a = far.lines.data(), *b = strip.lines.data();
+    const ProfileLine *a_last = a + far.lines.size() - 1, *b_last = b + strip.lines.size() - 1;
+    while (a != a_last && a[1].from <= begin)
+        ++a;
+    while (b != b_last && b[1].from <= begin)
+        ++b;
     out.lines.clear();
+    // Between two beginnings of lines there is one crossing at most.
+    out.lines.reserve(2 * (far.lines.size() + strip.lines.size()) + 2);
     out.end = strip.end;
-    std::size_t f = 0, s = 0;
-    while (f + 1 < far.lines.size() && far.lines[f + 1].from <= begin)
-        ++f;
-    while (s + 1 < strip.lines.size() && strip.lines[s + 1].from <= begin)
-        ++s;
+    const ProfileLine* latest = nullptr;
+    const auto put = [&](const ProfileLine* line, double from) {
+        if (line == latest) return;
+        latest = line;
+        out.lines.push_back({from, line->u0, line->g0, line->slope});
+    };
     double u = begin;
     while (u <= far.end && u <= strip.end) {
         // Both are straight from u to last.
-        const ProfileLine &a = far.lines[f], &b = strip.lines[s];
-        const double a_last = f + 1 < far.lines.size() ? far.lines[f + 1].from - 1 : far.end;
-        const double b_last = s + 1 < strip.lines.size() ? strip.lines[s + 1].from - 1 : strip.end;
-        const double last = std::min(a_last, b_last);
-        const bool far_first = a.at(u) - b.at(u) + tolerance_m >= 0;
-        const bool far_last = a.at(last) - b.at(last) + tolerance_m >= 0;
-        append(out, far_first ? a : b, u);
-        if (far_first && !far_last) append(out, b, crossing(a, b, u, last, tolerance_m));
-        if (!far_first && far_last) append(out, a, crossing(b, a, u, last, -tolerance_m));
-        if (a_last == last) ++f;
-        if (b_last == last) ++s;
+        const double a_end = a != a_last ? a[1].from - 1 : far.end,
+                     b_end = b != b_last ? b[1].from - 1 : strip.end;
+        const double last = std::min(a_end, b_end);
+        const bool far_first = a->at(u) - b->at(u) + tolerance_m >= 0;
+        const bool far_last = a->at(last) - b->at(last) + tolerance_m >= 0;
+        put(far_first ? a : b, u);
+        if (far_first && !far_last) put(b, crossing(*a, *b, u, last, tolerance_m));
+        if (!far_first && far_last) put(a, crossing(*b, *a, u, last, -tolerance_m));
+        a += a_end == last && a != a_last ? 1 : 0;
+        b += b_end == last && b != b_last ? 1 : 0;
         u = last + 1;
     }
     // Where the far profile has ended, the strip is alone.
-    for (; u <= strip.end; ++s) {
-        append(out, strip.lines[s], u);
-        u = s + 1 < strip.lines.size() ? strip.lines[s + 1].from : strip.end + 1;
+    for (; u <= strip.end; ++b) {
+        put(b, u);
+        u = b != b_last ? b[1].from : strip.end + 1;
     }
 }
 

@@ -117,5 +117,27 @@ TEST(HeightShapes, ExtremesOfHeightAndSize) {
         << "all trenches but those of the border";
 }
 
+TEST(HeightShapes, RoundEarthHidesWhatIsFar) {
+    // A tower of 100 m on the level sea: seen from the water up to sqrt(2 R h) = 35.7 km away, or 38.3 with
+    // refraction.
+    const HeightField sea = field_of(1201, 3, 100, 100, [](int x, int) { return x == 1100 ? 100.0 : 0.0; });
+    const auto dark = [](const HeightField& f) {
+        int n = 0;
+        HeightSun level = height_sun_towards(f, 1, 0, 1e-7);
+        const ShadowBits map = sweep_shadows(f, level, whole)[0];
+        for (int x = 0; x < 1100; ++x)
+            n += map(x, 1) ? 1 : 0;
+        return n;
+    };
+    EXPECT_EQ(dark(sea), 1100) << "as far as one likes over a plane";
+    const HeightField round = curved(sea, 0), bent = curved(sea, 0.13);
+    EXPECT_NEAR(metres_of(round.height_q16(0, 1)), -60'000.0 * 60'000.0 / (2 * 6'371'000.0), 0.001);
+    EXPECT_EQ(round.height_q16(600, 1), 0) << "the middle stays";
+    // The sun at 0 degrees above the middle's level stands lower or higher elsewhere, so look for lit water
+    // in between.
+    EXPECT_LT(dark(round), 1100);
+    EXPECT_GT(dark(bent), dark(round)) << "refraction lifts what is far";
+}
+
 }  // namespace
 }  // namespace obscura

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
+#include "raster/heights/height_horizon.h"
 #include "raster/heights/height_march.h"
 #include "raster/heights/height_near.h"
 #include "raster/heights/height_sweep.h"
@@ -164,6 +166,53 @@ TEST(HeightMarch, IsTheSurfaceAboveTheRay) {
     }
     EXPECT_GT(hidden, 2000);
     EXPECT_GT(free, 2000);
+}
+
+TEST(HeightHorizon, SunsAboveItAreSeenAndSunsBelowAreNot) {
+    std::int64_t above = 0, below = 0;
+    for (std::uint64_t seed = 0; seed < 600; ++seed) {
+        drawn::Random random(seed);
+        const HeightField field = drawn::heights(random, 14);
+        HeightSun sun = drawn::sun(random, field);
+        const Image<float> horizon = horizon_tangents(field, sun, {best_isa(), 1});
+        const double slope = static_cast<double>(sun.slope_q20) / static_cast<double>(cell_q20);
+        const double across = sun.lines_are_columns ? field.cell_x_m : field.cell_y_m;
+        const double along = slope * (sun.lines_are_columns ? field.cell_y_m : field.cell_x_m);
+        const double tangent = std::ldexp(static_cast<double>(sun.rise_q36), -rise_fraction_bits) /
+                               std::sqrt(across * across + along * along);
+        const ShadowBits map = march_shadows(field, sun);
+        for (int y = 0; y < field.height(); ++y) {
+            for (int x = 0; x < field.width(); ++x) {
+                const double h = horizon(x, y);
+                if (h > tangent * (1 + 1e-6)) {
+                    EXPECT_TRUE(map(x, y)) << "seed " << seed;
+                    ++below;
+                }
+                if (h < tangent * (1 - 1e-6)) {
+                    EXPECT_FALSE(map(x, y)) << "seed " << seed;
+                    ++above;
+                }
+            }
+        }
+    }
+    EXPECT_GT(above, 10'000);
+    EXPECT_GT(below, 3'000);
+}
+
+TEST(HeightHorizon, DiscsAreLitByTheirPartAboveIt) {
+    EXPECT_EQ(lit_share_of_disc(10, 9, 0.2665), 1);
+    EXPECT_EQ(lit_share_of_disc(10, 11, 0.2665), 0);
+    EXPECT_NEAR(lit_share_of_disc(10, 10, 0.2665), 0.5, 1e-12);
+    EXPECT_NEAR(lit_share_of_disc(10, 9.8, 0.2665) + lit_share_of_disc(10, 10.2, 0.2665), 1, 1e-12);
+    // By summing strips.
+    double sum = 0;
+    constexpr int strips = 100'000;
+    for (int i = 0; i < strips; ++i) {
+        const double y = -1 + 2 * (i + 0.5) / strips;
+        if (y > 0.4) sum += 2 * std::sqrt(1 - y * y) * 2 / strips;
+    }
+    EXPECT_NEAR(lit_share_of_disc(0, 0.4, 1), sum / 3.14159265358979, 1e-6);
+    EXPECT_EQ(lit_share_of_disc(5, -std::numeric_limits<double>::infinity(), 1), 1);
 }
 
 }  // namespace
