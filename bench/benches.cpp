@@ -40,7 +40,12 @@ const std::vector<Bench>& all_benches() {
          [](const BenchOptions& options) { return bench_shadows(options, all_contestants()); }},
         {"diffraction", "far and near fields", "apertures", {"apertures"}, {}, bench_diffraction},
         {"stereo", "solvers of disparity maps", "hard cases", {}, {}, bench_stereo},
-        {"terrain", "shadows of a day over elevation models", "elevation models", {"terrain"}, {}, bench_terrain},
+        {"terrain",
+         "shadows of a day over elevation models",
+         "elevation models",
+         {"terrain"},
+         {},
+         bench_terrain},
     };
     return benches;
 }

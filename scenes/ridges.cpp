@@ -135,7 +135,8 @@ void run_drop(Heights& h, Random& random) {
     }
 }
 
-/// What drops have left standing or dug out sample by sample slides down: means of each sample and those around it.
+/// What drops have left standing or dug out sample by sample slides down: means of each sample and those
+/// around it.
 void settle(Heights& h) {
     const Heights before = h;
     for (int y = 0; y < h.height; ++y) {

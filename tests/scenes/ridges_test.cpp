@@ -35,7 +35,9 @@ TEST(Ridges, WaterWearsSlopesDown) {
     const Image<std::uint16_t> worn = ridges(params);
     EXPECT_NE(dry, worn);
     EXPECT_EQ(*std::min_element(dry.pixels.begin(), dry.pixels.end()), 0);
-    const auto greatest = [](const Image<std::uint16_t>& h) { return *std::max_element(h.pixels.begin(), h.pixels.end()); };
+    const auto greatest = [](const Image<std::uint16_t>& h) {
+        return *std::max_element(h.pixels.begin(), h.pixels.end());
+    };
     EXPECT_GT(greatest(dry), 0.8 * params.height_m / ridges_step_m);
     EXPECT_LE(greatest(worn), 1.1 * params.height_m / ridges_step_m);
     params.seed = 2;
