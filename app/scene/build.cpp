@@ -249,9 +249,9 @@ void note_rounding(Builder& b, const SceneTable& table, const Mesh& made, const 
                             text(table, "id"), r.step, r.collapsed, count, r.coarse));
 }
 
-/// Before `more` triangles are added.
-void check_total(const Builder& b, const std::string& whose, std::int64_t more) {
-    const std::int64_t total = static_cast<std::int64_t>(b.scene.mesh.triangles.size()) + more;
+/// Before `more` triangles are added, a number of any type.
+void check_total(const Builder& b, const std::string& whose, auto more) {
+    const std::int64_t total = std::ssize(b.scene.mesh.triangles) + static_cast<std::int64_t>(more);
     if (total <= b.limits.triangles) return;
     throw LimitError(fmt::format("{}: {} brings the scene to {} triangles, more than limits.triangles = {}",
                                  b.document.sources[0], whose, total, b.limits.triangles));
@@ -261,8 +261,7 @@ void add_mesh(Builder& b, const SceneTable& table) {
     Part part = text(table, "shape") == "file" ? load_part(b, table) : make_part(table);
     const std::vector<const SceneTable*> instances = subtables(table, "instance");
     const std::size_t copies = std::max<std::size_t>(1, instances.size());
-    check_total(b, fmt::format("mesh '{}'", text(table, "id")),
-                static_cast<std::int64_t>(copies * part.mesh.triangles.size()));
+    check_total(b, fmt::format("mesh '{}'", text(table, "id")), copies * part.mesh.triangles.size());
     assign_materials(b, table, part);
     for (const std::string& note : texture_notes(
              fmt::format("mesh '{}'", text(table, "id")), part.mesh, part.without_uv, b.scene.materials,
@@ -288,7 +287,7 @@ void add_mesh(Builder& b, const SceneTable& table) {
 
 void add_terrain(Builder& b, const SceneTable& table) {
     const TerrainOptions options = terrain_options_of(table, b.limits);
-    const ElevationModel model = load_named(b, table, "file", [&](const std::filesystem::path& path) {
+    const auto model = load_named(b, table, "file", [&](const auto& path) {
         return load_elevation(path, text(table, "file"), b.access, options.elevation);
     });
     const std::string whose = fmt::format("terrain '{}'", text(table, "id"));
@@ -296,10 +295,9 @@ void add_terrain(Builder& b, const SceneTable& table) {
     if (model.holes > 0) add_note(b, fmt::format("{}: {} samples without a height", whose, model.holes));
     Mesh mesh = height_mesh(model.field, options.mesh);
     set_objects(table, options.casts_shadow, mesh);
-    const std::uint32_t material = table.has("material")
-                                       ? b.materials.find(text(table, "material"))->second
-                                       : add_terrain_look(b.scene, text(table, "id"), model);
-    mesh.material.assign(mesh.triangles.size(), material);
+    mesh.material.assign(mesh.triangles.size(), table.has("material")
+                                                    ? b.materials.find(text(table, "material"))->second
+                                                    : add_terrain_look(b.scene, text(table, "id"), model));
     check_coordinates(b, table, "terrain", mesh);
     append_mesh(b.scene.mesh, mesh);
 }
@@ -386,7 +384,6 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     b.scene.sky.image = sky_picture(b);
     note_idle_sky_keys(b);
     b.scene.outputs = outputs_of(document);
-
     add_materials(b);
     for (const SceneTable* mesh : subtables(document.root, "mesh"))
         add_mesh(b, *mesh);
