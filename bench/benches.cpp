@@ -8,6 +8,7 @@
 #include "bench/raster/raster_bench.h"
 #include "bench/shadows/shadow_bench.h"
 #include "bench/stereo/stereo_bench.h"
+#include "bench/terrain/terrain_bench.h"
 
 namespace obscura {
 namespace {
@@ -39,6 +40,12 @@ const std::vector<Bench>& all_benches() {
          [](const BenchOptions& options) { return bench_shadows(options, all_contestants()); }},
         {"diffraction", "far and near fields", "apertures", {"apertures"}, {}, bench_diffraction},
         {"stereo", "solvers of disparity maps", "hard cases", {}, {}, bench_stereo},
+        {"terrain",
+         "shadows of a day over elevation models",
+         "elevation models",
+         {"terrain"},
+         {},
+         bench_terrain},
     };
     return benches;
 }

@@ -196,4 +196,13 @@ void find_planar_faces(Mesh& mesh, std::span<const Triangle> welded) {
     renumber(mesh);
 }
 
+void make_faces_of_triangles(Mesh& mesh) {
+    const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+    mesh.face = all_indices(count);
+    mesh.faces.clear();
+    mesh.faces.reserve(count);
+    for (std::uint32_t t = 0; t < count; ++t)
+        mesh.faces.push_back(plane_of(mesh, t, area_vector(canonical_corners(mesh, t))));
+}
+
 }  // namespace obscura

@@ -23,4 +23,8 @@ namespace obscura {
 /// Edges shared by more than 16 triangles are not crossed, which bounds the work.
 void find_planar_faces(Mesh& mesh, std::span<const Triangle> welded);
 
+/// Fills mesh.face and mesh.faces with a face for every triangle, its plane as above, without looking for
+/// neighbours.
+void make_faces_of_triangles(Mesh& mesh);
+
 }  // namespace obscura

@@ -40,4 +40,11 @@ struct SunStep {
 /// sets and rises again is two.
 std::vector<SunStep> sun_steps(const SunPath& path);
 
+/// path.steps suns, close together where shadows move fast: the steps have equal shares of the integral of
+/// the square root of the speed at which the tip of an upright rod's shadow moves over level ground, while
+/// the sun stands at least least_elevation_deg in (0, 90) high, through air. The root is a compromise: by the
+/// speed itself nearly all suns would stand at the horizon. Each stands at the middle of its part's travel;
+/// hours add up to the time that the sun is so high, in whole 4096ths of the path. None where it stays lower.
+std::vector<SunStep> sun_steps_by_travel(const SunPath& path, double least_elevation_deg);
+
 }  // namespace obscura

@@ -8,6 +8,7 @@
 #include "core/file_output.h"
 #include "core/image_io.h"
 #include "scenes/patterns.h"
+#include "scenes/ridges.h"
 
 int main(int argc, char** argv) {
     if (argc != 2) {
@@ -20,6 +21,9 @@ int main(int argc, char** argv) {
                                            obscura::encode_png(pattern.image.view()),
                                            obscura::Existing::replace);
         }
+        const auto mountains = obscura::ridges(obscura::mountains_params());
+        obscura::write_file_atomically(std::string(argv[1]) + "/textures/ridges.png",
+                                       obscura::encode_png(mountains.view()), obscura::Existing::replace);
     } catch (const std::exception& error) {
         fmt::print(stderr, "obscura_textures: {}\n", error.what());
         return 5;

@@ -17,6 +17,7 @@
 #include "app/scene/mesh_transform.h"
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
+#include "app/scene/terrain.h"
 #include "app/scene/texture_notes.h"
 #include "app/scene/validate.h"
 #include "core/edges.h"
@@ -198,12 +199,12 @@ void set_objects(const SceneTable& table, bool casts_shadow, Mesh& mesh) {
     }
 }
 
-void check_coordinates(const Builder& b, const SceneTable& table, const Mesh& mesh) {
+void check_coordinates(const Builder& b, const SceneTable& table, const char* kind, const Mesh& mesh) {
     for (const Vec3f p : mesh.positions) {
         if (std::fabs(p.x) <= farthest_m && std::fabs(p.y) <= farthest_m && std::fabs(p.z) <= farthest_m)
             continue;
         fail_at(place_of(table, "id"), b.document.sources,
-                fmt::format("mesh '{}' reaches farther than {} m from the origin", text(table, "id"),
+                fmt::format("{} '{}' reaches farther than {} m from the origin", kind, text(table, "id"),
                             farthest_m));
     }
 }
@@ -248,17 +249,19 @@ void note_rounding(Builder& b, const SceneTable& table, const Mesh& made, const 
                             text(table, "id"), r.step, r.collapsed, count, r.coarse));
 }
 
+/// Before `more` triangles are added, a number of any type.
+void check_total(const Builder& b, const std::string& whose, auto more) {
+    const std::int64_t total = std::ssize(b.scene.mesh.triangles) + static_cast<std::int64_t>(more);
+    if (total <= b.limits.triangles) return;
+    throw LimitError(fmt::format("{}: {} brings the scene to {} triangles, more than limits.triangles = {}",
+                                 b.document.sources[0], whose, total, b.limits.triangles));
+}
+
 void add_mesh(Builder& b, const SceneTable& table) {
     Part part = text(table, "shape") == "file" ? load_part(b, table) : make_part(table);
     const std::vector<const SceneTable*> instances = subtables(table, "instance");
     const std::size_t copies = std::max<std::size_t>(1, instances.size());
-    const auto total =
-        static_cast<std::int64_t>(b.scene.mesh.triangles.size() + copies * part.mesh.triangles.size());
-    if (total > b.limits.triangles) {
-        throw LimitError(
-            fmt::format("{}: mesh '{}' brings the scene to {} triangles, more than limits.triangles = {}",
-                        b.document.sources[0], text(table, "id"), total, b.limits.triangles));
-    }
+    check_total(b, fmt::format("mesh '{}'", text(table, "id")), copies * part.mesh.triangles.size());
     assign_materials(b, table, part);
     for (const std::string& note : texture_notes(
              fmt::format("mesh '{}'", text(table, "id")), part.mesh, part.without_uv, b.scene.materials,
@@ -276,10 +279,27 @@ void add_mesh(Builder& b, const SceneTable& table) {
                 object.name += fmt::format("#{}", i);
         }
         transform_mesh(copy, instances.empty() ? own : placement_of(*instances[i]) * own);
-        check_coordinates(b, table, copy);
+        check_coordinates(b, table, "mesh", copy);
         note_rounding(b, table, part.mesh, copy);
         append_mesh(b.scene.mesh, copy);
     }
+}
+
+void add_terrain(Builder& b, const SceneTable& table) {
+    const TerrainOptions options = terrain_options_of(table, b.limits);
+    const auto model = load_named(b, table, "file", [&](const auto& path) {
+        return load_elevation(path, text(table, "file"), b.access, options.elevation);
+    });
+    const std::string whose = fmt::format("terrain '{}'", text(table, "id"));
+    check_total(b, whose, height_mesh_triangles(model.field.width(), model.field.height()));
+    if (model.holes > 0) add_note(b, fmt::format("{}: {} samples without a height", whose, model.holes));
+    Mesh mesh = height_mesh(model.field, options.mesh);
+    set_objects(table, options.casts_shadow, mesh);
+    mesh.material.assign(mesh.triangles.size(), table.has("material")
+                                                    ? b.materials.find(text(table, "material"))->second
+                                                    : add_terrain_look(b.scene, text(table, "id"), model));
+    check_coordinates(b, table, "terrain", mesh);
+    append_mesh(b.scene.mesh, mesh);
 }
 
 /// The lens's mask when it comes from a file, else nothing. Textures' limits hold for it, too.
@@ -364,10 +384,11 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
     b.scene.sky.image = sky_picture(b);
     note_idle_sky_keys(b);
     b.scene.outputs = outputs_of(document);
-
     add_materials(b);
     for (const SceneTable* mesh : subtables(document.root, "mesh"))
         add_mesh(b, *mesh);
+    for (const SceneTable* terrain : subtables(document.root, "terrain"))
+        add_terrain(b, *terrain);
     add_emitters(b);
     b.scene.optics.mask = lens_mask(b);
     set_frame(b.scene, document, scene_frames(document).first);

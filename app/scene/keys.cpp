@@ -84,6 +84,7 @@ const TableSpec& scene_schema_root() {
                 return k;
             }(),
             table_list_key("mesh", mesh_table()),
+            table_list_key("terrain", terrain_table()),
             table_map_key("material", material_table()),
             table_list_key("light", light_table()),
             table_map_key("shadow", shadow_table()).beside({shadow_cache_key()}),

@@ -8,6 +8,7 @@ namespace obscura {
 const TableSpec& scene_schema_root();
 const TableSpec& camera_table();
 const TableSpec& mesh_table();
+const TableSpec& terrain_table();
 const TableSpec& material_table();
 const TableSpec& light_table();
 const TableSpec& shadow_table();

@@ -130,6 +130,20 @@ void check_mesh(const SceneTable& mesh, const std::vector<std::string>& material
     if (!problem.empty()) fail_at(place_of_problem(mesh, problem), sources, problem);
 }
 
+void check_terrain(const SceneTable& terrain, const std::vector<std::string>& materials,
+                   const Sources& sources) {
+    if (terrain.has("material"))
+        require_known(text(terrain, "material"), place_of(terrain, "material"), materials, "material",
+                      sources);
+    for (const char* key : {"cell_x_m", "cell_y_m"}) {
+        if (terrain.has(key) && terrain.has("latitude_deg"))
+            fail_at(
+                place_of(terrain, "latitude_deg"), sources,
+                fmt::format("give either '{}' or 'latitude_deg', which says how large cells in degrees are",
+                            key));
+    }
+}
+
 void check_triangles(const SceneDocument& document) {
     const std::int64_t limit = integer(subtable(document.root, "limits"), "triangles");
     std::int64_t total = 0;
@@ -287,6 +301,9 @@ void apply_rules(SceneDocument& document) {
         root.has("material") ? keys_of(subtable(root, "material")) : std::vector<std::string>{};
     for (const SceneTable* mesh : subtables(root, "mesh"))
         check_mesh(*mesh, materials, sources);
+    unique_ids(root, "terrain", sources);
+    for (const SceneTable* terrain : subtables(root, "terrain"))
+        check_terrain(*terrain, materials, sources);
     check_triangles(document);
 
     const std::vector<std::string> light_ids = unique_ids(root, "light", sources);

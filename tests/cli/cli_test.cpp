@@ -41,8 +41,8 @@ TEST(Cli, VersionNamesCompilerInstructionSetsAndLibraries) {
 
 TEST(Cli, EveryCommandHasHelpWithUsage) {
     const auto commands = listed_commands();
-    for (const char* expected :
-         {"render", "check", "dump", "info", "diff", "diffraction", "stereo", "bench", "lesson", "version"})
+    for (const char* expected : {"render", "check", "dump", "info", "diff", "diffraction", "stereo",
+                                 "terrain", "bench", "lesson", "version"})
         EXPECT_NE(std::find(commands.begin(), commands.end(), expected), commands.end()) << expected;
     for (const std::string& command : commands) {
         const Outcome run = Program({command, "--help"}).run();
@@ -88,6 +88,9 @@ std::string plausible_value(const std::string& kind) {
                                                                      {"LAYOUT", "anaglyph"},
                                                                      {"VARIANTS", "warp"},
                                                                      {"PREFIX", "map"},
+                                                                     {"ID", "ground"},
+                                                                     {"LINES", "4"},
+                                                                     {"SAMPLES", "64"},
                                                                      {"SOLVER", "fmg"},
                                                                      {"DECADES", "5"},
                                                                      {"N", "1"}};

@@ -127,5 +127,47 @@ TEST(SunPath, ADayByAnotherClockMayHoldTwoSpans) {
     EXPECT_NEAR(sunlit_hours(own), sunlit_hours(path), 0.02);
 }
 
+TEST(SunPath, StepsByTravelAreCloseWhereShadowsMoveFast) {
+    const SunPath path = path_of({"Green River", 38.9, -110.1, -6, 4, 12, 0, 0}, 158);
+    const std::vector<SunStep> suns = sun_steps_by_travel(path, 0.5);
+    ASSERT_EQ(suns.size(), 158u);
+    double hours = 0, longest = 0;
+    for (std::size_t i = 0; i < suns.size(); ++i) {
+        EXPECT_GT(suns[i].elevation_deg, 0.5);
+        EXPECT_GT(suns[i].hours, 0);
+        EXPECT_TRUE(i == 0 || suns[i].hour_h > suns[i - 1].hour_h);
+        hours += suns[i].hours;
+        longest = std::max(longest, suns[i].hours);
+    }
+    EXPECT_NEAR(hours, sunlit_hours(path), 0.2) << "but for the time below half a degree";
+    EXPECT_LT(hours, sunlit_hours(path));
+    EXPECT_LT(suns.front().hours, longest / 5);
+    EXPECT_LT(suns.back().hours, longest / 5);
+
+    // Equal shares of the root of the tip's way: from one sun to the next, way times time is nearly the same.
+    struct Tip {
+        double x, y;
+    };
+    const auto tip = [](const SunStep& s) {
+        const double l = num::cos_deg(s.elevation_deg) / num::sin_deg(s.elevation_deg);
+        return Tip{l * num::sin_deg(s.azimuth_deg), l * num::cos_deg(s.azimuth_deg)};
+    };
+    const auto product = [&](std::size_t i) {
+        const Tip a = tip(suns[i]), b = tip(suns[i + 1]);
+        return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y)) *
+               (suns[i + 1].hour_h - suns[i].hour_h);
+    };
+    for (std::size_t i = 4; i + 5 < suns.size(); ++i)
+        EXPECT_NEAR(product(i) / product(79), 1, 0.05) << i;
+
+    EXPECT_TRUE(
+        sun_steps_by_travel(path_of({"Tromso, December", 69.65, 18.96, 1, 12, 21, 0, 0}), 0.5).empty());
+    const std::vector<SunStep> polar =
+        sun_steps_by_travel(path_of({"Pole, June", 90, 0, 0, 6, 21, 0, 0}, 20), 0.5);
+    ASSERT_EQ(polar.size(), 20u) << "a day of 24 hours";
+    for (const SunStep& s : polar)
+        EXPECT_NEAR(s.hours, 1.2, 0.01);
+}
+
 }  // namespace
 }  // namespace obscura

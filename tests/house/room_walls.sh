@@ -13,6 +13,7 @@ core/sky         core
 scenes           core
 raster           core
 raster/exact     raster
+raster/heights   raster
 hierarchy        raster
 hierarchy/mh     hierarchy
 hierarchy/mmh    hierarchy
@@ -20,6 +21,7 @@ hierarchy/dag    hierarchy
 hierarchy/facet  hierarchy
 hierarchy/codes  hierarchy/dag hierarchy/facet hierarchy/mh hierarchy/mmh
 hierarchy/stack  hierarchy
+hierarchy/terrain hierarchy raster/heights
 filters          hierarchy/codes
 optics/field     core
 optics/thesis    optics/field
@@ -28,12 +30,13 @@ stereo           raster
 stereo/solver    stereo
 stereo/thesis    stereo/solver
 app/models       core
-app/scene        app/models core/sky optics stereo stereo/thesis scenes
+app/elevation    raster/heights
+app/scene        app/models app/elevation core/sky optics stereo stereo/thesis scenes
 app/glare        app/scene
 app/frame        app/glare raster/exact hierarchy/stack
 app/pair         app/frame
 app/report       app/pair lessons/drawing
-app/cli          app/report
+app/cli          app/report hierarchy/terrain
 lessons/drawing  core
 lessons          core/sky optics stereo stereo/thesis scenes raster/exact hierarchy/stack lessons/drawing
 bench/embree     core
@@ -43,7 +46,8 @@ bench/peer_codes raster
 bench/shadows    app/frame hierarchy/stack bench/harness bench/embree bench/peer_codes
 bench/diffraction bench/harness
 bench/stereo     bench/harness
-bench            bench/raster bench/shadows bench/diffraction bench/stereo
+bench/terrain    app/scene hierarchy/terrain bench/harness bench/embree
+bench            bench/raster bench/shadows bench/diffraction bench/stereo bench/terrain
 END
 }
 

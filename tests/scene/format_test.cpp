@@ -147,6 +147,19 @@ TEST_F(SceneKeys, OfMeshesAreRead) {
     }
 }
 
+TEST_F(SceneKeys, OfTerrainsAreRead) {
+    write("hill.asc", "ncols 3\nnrows 3\ncellsize 20\nnodata_value -9\n1 2 3 4 -9 5 2 0 1\n");
+    const std::string head = start + camera + "[[terrain]]\nid = \"t\"\n";
+    const std::string hill = head + "file = \"hill.asc\"\nholes = \"fill\"\n";
+    const std::string level = head + "file = \"hill.asc\"\nholes = \"level\"\n";
+    const std::string codes = head + "file = \"four.pgm\"\ncell_x_m = 2\nz_step_m = 1\n";
+    write("four.pgm", "P2 2 2 9 1 3 4 5");
+    write("other.pgm", "P2 2 2 9 1 3 4 9");
+    const std::string degrees = head + "file = \"globe.asc\"\nlatitude_deg = 40\n";
+    write("globe.asc", "ncols 2\nnrows 2\nxllcorner 14\nyllcorner 37\ncellsize 0.001\n1 2 3 4\n");
+    expect_all_matter({hill, level, codes, degrees}, "terrain.t.", terrain_table().keys);
+}
+
 /// A light of the kind with what it needs, under the id.
 std::string light_of_kind(const VariantSpec& kind, const std::string& id) {
     return "[[light]]\nid = \"" + id + "\"\ntype = \"" + kind.name + "\"\n" + required_keys(kind.keys);

@@ -17,6 +17,7 @@
 #include "app/cli/run_program.h"
 #include "app/cli/sibling_program.h"
 #include "app/cli/stereo_command.h"
+#include "app/cli/terrain_command.h"
 #include "app/cli/version_command.h"
 #include "app/report/program_version.h"
 #include "app/scene/schema.h"
@@ -42,6 +43,7 @@ constexpr Command commands[] = {
     {"diff", "Compare two pictures", run_diff},
     {"diffraction", "Compute the light behind an aperture: far field, near field, colours", run_diffraction},
     {"stereo", "Render a scene for two eyes, with edited disparity", run_stereo},
+    {"terrain", "Compute the shadows of a day over an elevation model", run_terrain},
     {"bench", "Measure our methods beside their peers", program_of_its_own},
     {"lesson", "Draw the picture of a lesson", program_of_its_own},
     {"version", "Print version, instruction sets and libraries", run_version},
