@@ -38,9 +38,10 @@ const KeyRows<MeshOptions>& file_rows() {
         {file_key("file", "OBJ, glTF, PLY or STL file, relative to the scene file and inside its folder.")
              .need()},
         key_row(&MeshOptions::crease_angle_deg,
-                number_key("crease_angle_deg",
-                           "Where the file has neither normals nor smoothing groups: smooth across edges "
-                           "that bend less than this. 20 suits buildings, 180 scans.")
+                number_key(
+                    "crease_angle_deg",
+                    "Where the file has neither normals nor smoothing groups: smooth across edges "
+                    "that bend less than this. 20 suits buildings, 180 scans. glTF without normals is flat.")
                     .in({0, 180})),
     };
     return rows;
