@@ -34,6 +34,9 @@ TEST_P(NewCommand, WritesASceneThatRenders) {
     std::vector<std::string> words = {command, "my scene.toml",          "-o", "my scene.png",
                                       "-D",    "render.size_px=[64,36]", "-D", "render.samples=1",
                                       "-D",    "sky.occlusion=false"};
+    if (kind == "object" || kind == "stereo")
+        words.insert(words.end(), {"-D", "light.lamp.shadow.samples=4"});
+    if (kind == "night") words.insert(words.end(), {"-D", "light.lantern.shadow.samples=4"});
     if (kind == "night") words.insert(words.end(), {"-D", "optics.radius_px=16"});
     const Outcome rendered = test::run_in(folder, words);
     EXPECT_EQ(rendered.code, 0) << rendered.err;
