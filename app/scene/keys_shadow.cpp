@@ -88,7 +88,8 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "more off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds "
             "to find; lookups read as many nodes. dag: structure and depths apart, all that is alike in "
             "either written once; lookups read several times as much. facet: leaves hold planes and edges of "
-            "the mesh, so that it hardly grows with the resolution where these are few. auto: the smallest "
+            "the mesh, so that it grows by half when the side is four times as long, where surfaces meet at "
+            "edges of the mesh alone, and three times where they pierce each other. auto: the smallest "
             "that is as fast "
             "as mh and is waited for once: mmh with scope \"full\", a cache, filter_px 1 and at least 6 "
             "top_levels, else mh; `obscura check` tells which, and why. \"mh\" when not given."),

@@ -1,7 +1,7 @@
 #pragma once
 // The codes: ways to write a tree of depths, one row each.
 //
-// A code has four verbs: encode, look up in lanes, check what a file holds, describe itself. Three are here;
+// A code has four verbs: encode, look up in lanes, check what a file holds, describe itself. Four are here;
 // looking up is inlined into kernels, so its row stands in tree_step.h and tree_lanes.h. A new
 // code is a folder beside mh/ and mmh/, a number and a name in tree_code.h, a row here and one there.
 

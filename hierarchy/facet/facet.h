@@ -23,8 +23,8 @@ FacetTree build_facet_tree(const Mesh& mesh, const LightView& view, const BuildP
                            const Exec& exec, BuildStats* stats = nullptr,
                            const std::atomic<bool>* cancel = nullptr);
 
-/// Serialises it, without the top grid. LimitError when it takes more than params.max_units words, or has
-/// more than 2^20 planes.
+/// Serialises it, without the top grid. LimitError when it takes more than params.max_units words. Of
+/// more than 2^20 planes the later ones are stored as depths.
 ShadowTree encode_facet(const FacetTree& tree, const LightView& view, const EncodeParams& params);
 
 /// Both, on encode.exec. A cancelled tree has no bytes.

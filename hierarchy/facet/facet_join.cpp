@@ -196,9 +196,9 @@ FacetPart FacetBuilder::join(const FacetPart (&child)[4], const Square& square, 
     Slot slots[8];
     int n = 0;
     for (int i = 0; i < 4; ++i) {
+        // Ramps count everywhere: a quadrant without an edge may get one with its square, further up.
         for (int side = 0; side < (child[i].has_edge ? 2 : 1); ++side)
-            slots[n++] = {
-                &child[i].value[side], square.child(i), i, side, child[i].has_edge || child[i].kinds != 0, 0};
+            slots[n++] = {&child[i].value[side], square.child(i), i, side, true, 0};
     }
     const Choice choice = best_choice(slots, n, planes);
 

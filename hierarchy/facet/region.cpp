@@ -112,7 +112,7 @@ bool RegionJudge::account(const Side& region, const Listed& q, const Listed& fir
         const double beyond = p.at[static_cast<std::size_t>(i)].beyond - start;
         if (beyond > 0) {
             if (gap[i] <= 0) return false;
-            most = std::min(most, gap[i] / (4 * beyond));
+            most = std::min(most, gap[i] / (8 * beyond));
             if (beyond > far) {
                 far = beyond;
                 steepest = gap[i] / beyond;
@@ -120,7 +120,7 @@ bool RegionJudge::account(const Side& region, const Listed& q, const Listed& fir
         } else if (gap[i] < 0) {
             if (beyond == 0) return false;
             crosses = true;
-            needed = std::max(needed, gap[i] / (4 * beyond));
+            needed = std::max(needed, gap[i] / (8 * beyond));
         }
     }
     if (needed > most) return false;

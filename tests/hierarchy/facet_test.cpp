@@ -1,5 +1,5 @@
 // The code facet: every texel decodes to a depth of its own interval, whatever the solids, the view and the
-// receivers; the same tree for any threads and instruction set; sizes that stop growing.
+// receivers; the same tree for any threads and instruction set.
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,10 @@ TEST(Facet, EveryTexelDecodesToADepthOfItsIntervalAtFinerMaps) {
 }
 
 TEST(Facet, TheSameTreeForAnyThreadsAndInstructionSet) {
-    for_each_case(64, 1, [](const Case& c) {
+    // Large enough to be shared out among threads; every fourth of the cases.
+    int number = 0;
+    for_each_case(256, 1, [&](const Case& c) {
+        if (number++ % 4 != 0) return;
         const ShadowTree first = tree_of(c, {Isa::sse2, 1});
         for (const Isa isa : supported_isas()) {
             for (const int threads : {1, 3}) {
