@@ -11,6 +11,7 @@
 #include "app/elevation/raw_grid.h"
 #include "core/error.h"
 #include "core/num.h"
+#include "raster/heights/height_mesh.h"
 
 namespace obscura {
 namespace {
@@ -50,18 +51,24 @@ struct CellSize {
 CellSize cell_size(const RawGrid& raw, const std::string& name, const ElevationOptions& o) {
     CellSize cell{};
     if (o.cell_x_m || o.cell_y_m) {
+        if (o.latitude_deg)
+            throw InputError(name,
+                             "latitude_deg is for cells in degrees, and cell_x_m or cell_y_m says metres");
         cell = {o.cell_x_m ? *o.cell_x_m : *o.cell_y_m, o.cell_y_m ? *o.cell_y_m : *o.cell_x_m};
     } else {
         if (!raw.cell_x || !raw.cell_y)
             throw InputError(name, "says nothing about the size of its cells: give cell_x_m and cell_y_m");
         cell = {*raw.cell_x, *raw.cell_y};
-        const std::optional<double> latitude = raw.latitude_deg ? raw.latitude_deg : o.latitude_deg;
+        const std::optional<double> latitude = o.latitude_deg ? o.latitude_deg : raw.latitude_deg;
+        if (raw.metres && o.latitude_deg)
+            throw InputError(name, "has cells in metres, and latitude_deg is for cells in degrees");
         if (raw.degrees || o.latitude_deg) {
             if (!latitude) {
                 throw InputError(
-                    name, fmt::format("has cells of {} by {} degrees, which are metres at a latitude only: "
-                                      "give latitude_deg, or cell_x_m and cell_y_m",
-                                      cell.x_m, cell.y_m));
+                    name,
+                    fmt::format("has cells of {} by {}, degrees by where it lies, which are metres at a "
+                                "latitude only: give latitude_deg, or cell_x_m and cell_y_m",
+                                cell.x_m, cell.y_m));
             }
             if (std::fabs(*latitude) > 89.9)
                 throw InputError(name,
@@ -80,6 +87,34 @@ CellSize cell_size(const RawGrid& raw, const std::string& name, const ElevationO
 
 std::int64_t count_holes(const Image<double>& values) {
     return std::count_if(values.pixels.begin(), values.pixels.end(), [](double v) { return std::isnan(v); });
+}
+
+/// Codes by which files mark holes, and which are no heights unless the file declares another use.
+bool is_customary_hole(double value) {
+    return value == -32768 || value == -9999;
+}
+
+/// From the file's units to metres before exaggeration. Every height is one that a field can have from here
+/// on, so that means of heights are finite.
+void to_metres(RawGrid& raw, double step_m, const std::string& name) {
+    for (std::size_t i = 0; i < raw.values.pixels.size(); ++i) {
+        double& v = raw.values.pixels[i];
+        if (std::isnan(v)) continue;
+        const double height_m = v * step_m + raw.z_offset_m;
+        if (std::fabs(height_m) <= largest_height_m && !is_customary_hole(v)) {
+            v = height_m;
+            continue;
+        }
+        const auto width = static_cast<std::size_t>(raw.values.width);
+        const std::string place = fmt::format("column {}, row {}: ", i % width, i / width);
+        if (is_customary_hole(v))
+            throw InputError(name,
+                             fmt::format("{}{} marks holes, and the file does not declare it", place, v));
+        throw InputError(name,
+                         fmt::format("{}a height of {} m is beyond {} m: is the z unit right, or is this a "
+                                     "hole that the file does not declare?",
+                                     place, height_m, largest_height_m));
+    }
 }
 
 /// Gives every hole the mean of those of its eight neighbours that have a height, layer after layer from the
@@ -153,17 +188,24 @@ void close_holes(Image<double>& metres, std::int64_t holes, const std::string& n
 }  // namespace
 
 void check_grid_size(std::int64_t width, std::int64_t height, const std::string& name,
-                     const ElevationOptions& options) {
+                     const ElevationOptions& options, std::int64_t code_bytes) {
     if (width < 1 || height < 1) throw InputError(name, fmt::format("has {} by {} samples", width, height));
     if (width > largest_height_field_side || height > largest_height_field_side) {
         throw LimitError(fmt::format("{}: {} by {} samples; a side has at most {}", name, width, height,
                                      largest_height_field_side));
     }
-    constexpr std::int64_t per_sample = sizeof(double) + sizeof(std::int32_t);
-    if (width * height > options.max_bytes / per_sample) {
-        throw LimitError(fmt::format("{}: {} by {} samples take {} MiB while they are read, more than {} MiB",
-                                     name, width, height, (width * height * per_sample) >> 20,
-                                     options.max_bytes >> 20));
+    const std::int64_t samples = width * height;
+    const auto check = [&](std::int64_t bytes, const char* doing) {
+        if (bytes <= options.max_bytes) return;
+        throw LimitError(fmt::format("{}: {} by {} samples take {} MiB {}, more than {} MiB{}", name, width,
+                                     height, bytes >> 20, doing, options.max_bytes >> 20, options.advice));
+    };
+    check(samples * (code_bytes + std::int64_t{sizeof(double) + sizeof(std::int32_t)}),
+          "while they are read");
+    if (options.as_mesh && width >= 2 && height >= 2) {
+        // The scene's copy of the mesh is made from it.
+        check(samples * std::int64_t{sizeof(std::int32_t)} + 2 * height_mesh_bytes(width, height),
+              "as a mesh of a scene");
     }
 }
 
@@ -173,8 +215,7 @@ ElevationModel decode_elevation(std::string_view bytes, const std::string& name,
     const CellSize cell = cell_size(raw, name, options);
     const std::optional<double> step = options.z_step_m ? options.z_step_m : raw.z_step_m;
     if (!step) throw InputError(name, "says nothing about the unit of its heights: give z_step_m");
-    for (double& v : raw.values.pixels)
-        v = v * *step + raw.z_offset_m;
+    to_metres(raw, *step, name);
 
     ElevationModel model;
     model.holes = count_holes(raw.values);
@@ -188,10 +229,8 @@ ElevationModel decode_elevation(std::string_view bytes, const std::string& name,
         if (!(std::fabs(height_m) <= largest_height_m)) {
             const auto width = static_cast<std::size_t>(raw.values.width);
             throw InputError(
-                name,
-                fmt::format("column {}, row {}: a height of {} m is beyond {} m: is the z unit right, or "
-                            "is this a hole that the file does not declare?",
-                            i % width, i / width, height_m, largest_height_m));
+                name, fmt::format("column {}, row {}: {} m times exaggeration {} is beyond {} m", i % width,
+                                  i / width, raw.values.pixels[i], options.exaggeration, largest_height_m));
         }
         model.least_m = std::min(model.least_m, height_m);
         model.greatest_m = std::max(model.greatest_m, height_m);

@@ -20,11 +20,14 @@ enum class HolePolicy {
 struct ElevationOptions {
     std::optional<double> cell_x_m, cell_y_m;  ///< between columns, and between rows; one alone is for both
     std::optional<double> z_step_m;            ///< metres in a unit of the file's numbers
-    std::optional<double> latitude_deg;        ///< of the model's middle: its cells are in degrees
+    std::optional<double> latitude_deg;        ///< of the model's middle: its cells are in degrees. Refused
+                                               ///< where they are known to be in metres
     double exaggeration = 1;                   ///< heights are multiplied by it
     HolePolicy holes = HolePolicy::refuse;
     double hole_level_m = 0;
-    std::int64_t max_bytes = std::int64_t{1} << 30;  ///< of the model while it is read
+    std::int64_t max_bytes = std::int64_t{1} << 30;  ///< of the model while it is read,
+    bool as_mesh = false;       ///< and of what it becomes in a scene: a closed mesh, and the scene's copy
+    std::string_view advice{};  ///< follows that number in messages, like " (--limit raises it)"
 };
 
 struct ElevationModel {
@@ -37,7 +40,9 @@ struct ElevationModel {
 ///   .pgm   samples of 8 or 16 bits, with a .json beside it (`sidecar`: cell_size_x_m, cell_size_y_m,
 ///   elevation_scale_m,
 ///          elevation_offset_m) or with cell sizes and z_step_m given
-///   .asc   ESRI ASCII grid; degrees are refused without a latitude
+///   .asc   ESRI ASCII grid; cells below 1 at a place on the globe are refused without cell sizes or a
+///   latitude;
+///          -9999 is a hole when no NODATA_value is given
 ///   .hgt   SRTM, 1 or 3 arc seconds, placed by its name (N37E014)
 ///   .png   grey, 16 bits, with cell sizes and z_step_m given
 /// `name` stands in messages, its last part is the file's. Throws InputError with line or byte, LimitError

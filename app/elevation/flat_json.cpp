@@ -95,7 +95,9 @@ class JsonReader {
         double value = 0;
         const char* begin = text_.data() + at_;
         const auto [end, error] = std::from_chars(begin, text_.data() + text_.size(), value);
-        const bool digit = first == '-' || (first >= '0' && first <= '9');
+        // from_chars takes infinities and NaNs as well, which JSON does not have.
+        const char leading = first == '-' && at_ + 1 < text_.size() ? text_[at_ + 1] : first;
+        const bool digit = leading >= '0' && leading <= '9';
         if (error != std::errc{} || !digit) fail("not a number");
         if (!numbers.emplace(key, value).second) fail(fmt::format("'{}' is said twice", key));
         at_ += static_cast<std::size_t>(end - begin);

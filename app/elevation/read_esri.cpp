@@ -95,6 +95,28 @@ Header read_header(Words& words) {
     }
 }
 
+/// The format has no unit. A grid that fits on the globe in degrees, with cells below one, may be in them;
+/// one that begins beyond the globe is in metres.
+void set_unit_of_cells(const Header& header, const Words& words, std::int64_t width, std::int64_t height,
+                       RawGrid& grid) {
+    const auto corner = [&](const char* corner_key, const char* centre_key) -> std::optional<double> {
+        if (header.has(corner_key)) return header.at(corner_key, words);
+        if (header.has(centre_key)) return header.at(centre_key, words);
+        return {};
+    };
+    const std::optional<double> x = corner("xllcorner", "xllcenter"), y = corner("yllcorner", "yllcenter");
+    if (!x || !y) return;
+    // Longitudes count from -180 or from 0.
+    constexpr double slack = 1;
+    const auto on_globe = [](double east, double north) {
+        return east >= -180 - slack && east <= 360 + slack && std::fabs(north) <= 90 + slack;
+    };
+    grid.metres = !on_globe(*x, *y);
+    grid.degrees = *grid.cell_x < 1 && *grid.cell_y < 1 && on_globe(*x, *y) &&
+                   on_globe(*x + static_cast<double>(width) * *grid.cell_x,
+                            *y + static_cast<double>(height) * *grid.cell_y);
+}
+
 std::int64_t whole(double value, const char* key, const Words& words) {
     if (value != std::floor(value) || value < 1 || value > 1e9)
         words.fail(fmt::format("{} is {}, not a number of samples", key, value));
@@ -117,17 +139,10 @@ RawGrid read_esri_grid(std::string_view bytes, const std::string& name, const El
     grid.z_step_m = 1;
     grid.cell_x = header.has("dx") ? header.at("dx", words) : header.at("cellsize", words);
     grid.cell_y = header.has("dy") ? header.at("dy", words) : header.at("cellsize", words);
-    // The format has no unit; cells of a hundredth at a place on the globe are no metres.
-    const auto place = [&](const char* corner, const char* centre) {
-        return header.has(corner)   ? header.at(corner, words)
-               : header.has(centre) ? header.at(centre, words)
-                                    : 1e9;
-    };
-    grid.degrees = *grid.cell_x < 0.02 && std::fabs(place("xllcorner", "xllcenter")) <= 360 &&
-                   std::fabs(place("yllcorner", "yllcenter")) <= 90;
+    set_unit_of_cells(header, words, width, height, grid);
 
-    const bool declared = header.has("nodata_value");
-    const double hole = declared ? header.at("nodata_value", words) : 0;
+    // The format's default.
+    const double hole = header.has("nodata_value") ? header.at("nodata_value", words) : -9999;
     grid.values = Image<double>(static_cast<int>(width), static_cast<int>(height));
     std::string_view word = header.first_value;
     for (std::size_t i = 0; i < grid.values.pixels.size(); ++i) {
@@ -135,7 +150,7 @@ RawGrid read_esri_grid(std::string_view bytes, const std::string& name, const El
             words.fail(fmt::format("the file ends after {} of {} heights", i, grid.values.pixels.size()));
         }
         const double value = words.number_of(word, "a height");
-        grid.values.pixels[i] = declared && value == hole ? no_height : value;
+        grid.values.pixels[i] = value == hole ? no_height : value;
         word = words.next();
     }
     if (!word.empty()) words.fail("more follows the last height");

@@ -20,6 +20,15 @@ constexpr std::int64_t height_mesh_triangles(std::int64_t width, std::int64_t he
     return 2 * (width - 1) * (height - 1) + 3 * border;
 }
 
+/// Bytes of the mesh that height_mesh() makes, with a material and an object for every triangle; while it is
+/// made it takes less than twice that.
+constexpr std::int64_t height_mesh_bytes(std::int64_t width, std::int64_t height) {
+    constexpr std::int64_t vertex = 2 * sizeof(Vec3f) + sizeof(Vec2f);
+    constexpr std::int64_t triangle = sizeof(Triangle) + 4 * sizeof(std::uint32_t) + sizeof(Plane);
+    return (width * height + 10 * (width + height)) * vertex +
+           height_mesh_triangles(width, height) * triangle;
+}
+
 /// The field's triangles, walls along its border down to a level floor, and that: one closed component. All
 /// that analyse_topology() fills is filled, from what a grid is: no two triangles are compared. Every
 /// triangle is a planar face of its own. Normals of the ground are means of the triangles around a sample, by

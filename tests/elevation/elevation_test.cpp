@@ -82,6 +82,57 @@ TEST(Elevation, SrtmIsPlacedByItsName) {
               decode_elevation(hgt(1), "N36W014.hgt", {}, {}).field.cell_x_m);
 }
 
+TEST(Elevation, TheUsersLatitudeComesBeforeTheName) {
+    ElevationOptions o;
+    o.latitude_deg = 60.5;
+    const double there = decode_elevation(hgt(1), "N60E014.hgt", {}, {}).field.cell_x_m;
+    EXPECT_EQ(decode_elevation(hgt(1), "N37E014.hgt", {}, o).field.cell_x_m, there);
+    EXPECT_EQ(decode_elevation(hgt(1), "etna.hgt", {}, o).field.cell_x_m, there) << "no name is needed then";
+}
+
+TEST(Elevation, EsriCellsBelowOneOnTheGlobeNeedAWord) {
+    const std::string text = "ncols 2\nnrows 2\nxllcorner -5\nyllcorner 40\ncellsize 0.1\n1 2 -9999 4\n";
+    ElevationOptions o;
+    o.holes = HolePolicy::fill;
+    EXPECT_THROW(decode_elevation(text, "a.asc", {}, o), InputError);
+    o.cell_x_m = 0.1;
+    const ElevationModel metric = decode_elevation(text, "a.asc", {}, o);
+    EXPECT_EQ(metric.field.cell_x_m, 0.1);
+    EXPECT_EQ(metric.holes, 1) << "-9999 is a hole when no NODATA_value is given";
+    o.cell_x_m = {};
+    o.latitude_deg = 40;
+    EXPECT_NEAR(decode_elevation(text, "a.asc", {}, o).field.cell_y_m, 11103.6, 1);
+}
+
+TEST(Elevation, WhatAMeshTakesIsAskedFromTheHeader) {
+    // 3000 x 3000, of which there is only the header.
+    std::string png = encode_png(Image<std::uint16_t>(2, 2).view());
+    png.replace(16, 8, "\0\0\x0b\xb8\0\0\x0b\xb8"s);
+    ElevationOptions o;
+    o.cell_x_m = o.z_step_m = 1;
+    o.advice = " (limits.memory_mib)";
+    const auto said = [&](const std::string& bytes, const std::string& name) -> std::string {
+        try {
+            decode_elevation(bytes, name, {}, o);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    o.max_bytes = std::int64_t{104} << 20;
+    EXPECT_NE(
+        said(png, "a.png").find("take 171 MiB while they are read, more than 104 MiB (limits.memory_mib)"),
+        std::string::npos)
+        << said(png, "a.png");
+    o.max_bytes = std::int64_t{2600} << 20;
+    o.as_mesh = true;
+    EXPECT_NE(said(png, "a.png").find("as a mesh of a scene, more than 2600 MiB (limits.memory_mib)"),
+              std::string::npos)
+        << said(png, "a.png");
+    o.max_bytes = std::int64_t{100} << 20;
+    EXPECT_NE(said("P5 3000 3000 65535\n", "a.pgm").find("(limits.memory_mib)"), std::string::npos);
+}
+
 TEST(Elevation, PngOfSixteenBits) {
     Image<std::uint16_t> grey(2, 2);
     grey(1, 0) = 40000;
@@ -120,9 +171,12 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 std::vector<Bad> bad_files() {
     const ElevationOptions none;
-    ElevationOptions fill, small, high;
+    ElevationOptions fill, high, tenths, tenfold, somewhere;
     fill.holes = HolePolicy::fill;
-    small.max_bytes = 70;
+    tenths = tenfold = somewhere = fill;
+    tenths.z_step_m = 0.1;
+    tenfold.exaggeration = 10;
+    somewhere.latitude_deg = 40;
     high.cell_x_m = high.z_step_m = 1;
     high.exaggeration = 1000;
     const std::string e = esri, j = json;
@@ -160,7 +214,7 @@ std::vector<Bad> bad_files() {
          replaced(replaced(replaced(e, "4e5", "14"), "5e6", "37"), "cellsize 25", "cellsize 0.000833"),
          {},
          fill,
-         "has cells of 0.000833 by 0.000833 degrees"},
+         "has cells of 0.000833 by 0.000833, degrees"},
         {"sea of holes",
          "a.asc",
          "ncols 1\nnrows 1\ncellsize 1\nnodata_value 0\n0",
@@ -172,8 +226,39 @@ std::vector<Bad> bad_files() {
          replaced(e, " 6\n", " -32768\n"),
          {},
          fill,
-         "column 2, row 1: a height of -32768 m is beyond"},
-        {"too high", "a.pgm", pgm, {}, high, "column 2, row 0: a height of 256000 m"},
+         "column 2, row 1: -32768 marks holes, and the file does not declare it"},
+        {"undeclared hole of another unit",
+         "a.asc",
+         replaced(e, " 6\n", " -32768\n"),
+         {},
+         tenths,
+         "column 2, row 1: -32768 marks holes"},
+        {"hole between infinities",
+         "a.asc",
+         "ncols 3\nnrows 5\ncellsize 25\nNODATA_value -9999\n1.7e308 1.7e308 1.7e308\n"
+         "-9999 -9999 -9999\n-9999 -9999 -9999\n-9999 -9999 -9999\n-1.7e308 -1.7e308 -1.7e308\n",
+         {},
+         fill,
+         "column 0, row 0: a height of 1.7e+308 m is beyond"},
+        {"perhaps degrees",
+         "a.asc",
+         replaced(replaced(replaced(e, "4e5", "-5"), "5e6", "40"), "cellsize 25", "cellsize 0.1"),
+         {},
+         fill,
+         "give latitude_deg, or cell_x_m and cell_y_m"},
+        {"metres and a latitude", "a.asc", e, {}, somewhere, "has cells in metres, and latitude_deg is for"},
+        {"json metres and a latitude", "a.pgm", pgm, json, somewhere,
+         "has cells in metres, and latitude_deg is for"},
+        {"json -nan", "a.pgm", pgm, replaced(j, "-10", "-nan"), none, "not a number"},
+        {"json -inf", "a.pgm", pgm, replaced(j, "-10", "-inf"), none, "not a number"},
+        {"json upside down", "a.pgm", pgm, replaced(j, "0.5", "-0.5"), none, "'elevation_scale_m' is -0.5"},
+        {"exaggerated",
+         "a.asc",
+         replaced(e, " 6\n", " 4000\n"),
+         {},
+         tenfold,
+         "column 2, row 1: 4000 m times exaggeration 10 is beyond 32767 m"},
+        {"too high", "a.pgm", pgm, {}, high, "column 2, row 0: 256 m times exaggeration 1000 is beyond"},
         {"hgt name", "etna.hgt", hgt(0), {}, none, "says where it lies by its name"},
         {"hgt size", "N37E014.hgt", "123", {}, none, "has 3 bytes: an HGT file has"},
         {"png", "a.png", "P5", {}, none, "is no PNG"},
