@@ -66,14 +66,18 @@ void check_memory(const HeightField& field, const Limits& limits, const std::str
     }
 }
 
-/// Whether the file holds just these far shadows.
-bool is_made(const std::filesystem::path& path, const TreeFileKey& key) {
+/// What the file holds: these far shadows; these, but altered since; or anything else.
+enum class FarFileState { other, damaged, made };
+
+FarFileState state_of(const std::filesystem::path& path, const TreeFileKey& key) {
     std::error_code error;
-    if (!std::filesystem::exists(path, error)) return false;
+    if (path.empty() || !std::filesystem::exists(path, error)) return FarFileState::other;
     try {
-        return read_far_file(path).key == key;
+        const FarFile file = read_far_file(path);
+        if (file.key != key) return FarFileState::other;
+        return is_intact(file.day) ? FarFileState::made : FarFileState::damaged;
     } catch (const InputError&) {
-        return false;
+        return FarFileState::other;
     }
 }
 
@@ -118,7 +122,7 @@ int terrain_command(const TerrainDayOptions& options) {
     const Light sun = sun_of(document);
     const Limits limits = limits_of(document);
     const std::string& named = text(table, "file");
-    const HeightField field = load_elevation(resolve_input(access, named), named, access,
+    const HeightField field = load_elevation(resolve_input(access, named), named, access, limits,
                                              terrain_options_of(table, limits).elevation)
                                   .field;
     check_memory(field, limits, document.sources[0]);
@@ -127,27 +131,37 @@ int terrain_command(const TerrainDayOptions& options) {
     const FarDayParams params{static_cast<int>(options.threshold), static_cast<int>(options.tile_side)};
     const TreeFileKey key{far_day_hash(field, suns, params), far_file_kind};
 
-    const bool made = !options.far_shadows.empty() && is_made(options.far_shadows, key);
-    std::vector<std::filesystem::path> results;
-    for (const auto* path : {&options.hours, &options.picture}) {
-        if (!path->empty()) results.push_back(*path);
+    const FarFileState state = state_of(options.far_shadows, key);
+    const bool made = state == FarFileState::made;
+    // What is there already, or is to be repaired, may exist; but no other result may go to it.
+    std::vector<std::filesystem::path> all, fresh;
+    for (const auto* path : {&options.hours, &options.picture, &options.far_shadows}) {
+        if (path->empty()) continue;
+        all.push_back(*path);
+        if (path != &options.far_shadows || state == FarFileState::other) fresh.push_back(*path);
     }
-    if (!options.far_shadows.empty() && !made) results.push_back(options.far_shadows);
-    check_targets(results, {}, run.existing(), *access.read);
+    check_targets(all, {}, Existing::replace, *access.read);
+    check_targets(fresh, {}, run.existing(), *access.read);
+    const auto tell = [&](const std::string& words) {
+        if (!run.quiet) print(words);
+    };
+    if (state == FarFileState::damaged && !run.quiet)
+        say_note(fmt::format("{} is damaged and is made again", options.far_shadows.string()));
 
     set_signal_policy(OnSignal::ask_to_stop);
     Progress progress(stderr, Progress::style_for(stderr, run.quiet));
     if (made) {
-        print(fmt::format("far shadows of {} suns are there already: {}\n", suns.size(),
-                          options.far_shadows.string()));
+        tell(fmt::format("far shadows of {} suns are there already: {}\n", suns.size(),
+                         options.far_shadows.string()));
     } else if (!options.far_shadows.empty()) {
         const FarDay day =
             make_far_day(field, suns, params, run.exec,
                          watch_of(progress, "far shadows", suns.size(), 0, wants_hours ? 0.8 : 1));
         stop_if_requested();
-        write_far_file(options.far_shadows, day, key, run.existing());
+        write_far_file(options.far_shadows, day, key,
+                       state == FarFileState::damaged ? Existing::replace : run.existing());
         progress.clear();
-        print(far_text(day, options.far_shadows));
+        tell(far_text(day, options.far_shadows));
     }
     if (wants_hours) {
         const double from = made || options.far_shadows.empty() ? 0 : 0.8;
@@ -157,7 +171,8 @@ int terrain_command(const TerrainDayOptions& options) {
         write_hours(hours, sun, options);
         progress.clear();
         const auto [least, most] = std::minmax_element(hours.pixels.begin(), hours.pixels.end());
-        print(fmt::format("hours of sun: {:.2f} to {:.2f} h\n", *least, *most));
+        tell(fmt::format("hours of sun: {:.2f} to {:.2f} h, of suns of {:g} degrees and higher\n", *least,
+                         *most, options.least_elevation_deg));
     }
     if (wants_hours || !made) progress.finish();
     return 0;
@@ -181,8 +196,8 @@ int run_terrain(const Arguments& arguments) {
     flags.group("Day");
     flags.whole("--suns", "N", options.suns, 1, 4096,
                 "Suns over the day, closer together where shadows move fast.", "158");
-    flags.number("--least-elevation", "DEG", options.least_elevation_deg, 0.01, 89, "None stands lower.",
-                 "0.5");
+    flags.number("--least-elevation", "DEG", options.least_elevation_deg, 0.01, 89,
+                 "None stands lower, and no hours count in which it does.", "0.5");
     flags.whole("--threshold", "LINES", options.threshold, 1, 1 << 20,
                 "Far shadows have casters at least so many lines of the grid away.", "16");
     flags.whole("--tile", "SAMPLES", options.tile_side, 64, largest_far_tile_side,
@@ -190,7 +205,10 @@ int run_terrain(const Arguments& arguments) {
     flags.group("Output");
     flags.text("-o,--output", "FILE", far_shadows, "Far shadows of all suns, tiles of which decode alone.",
                "none");
-    flags.text("--hours", "FILE", hours, "Hours of sun of every sample (.pfm).", "none");
+    flags.text(
+        "--hours", "FILE", hours,
+        "Hours of sun of every sample (.pfm), without those in which the sun stands below --least-elevation.",
+        "none");
     flags.text("--picture", "FILE", picture, "The same in colours, with a scale (.png).", "none");
     flags.on_off("--overwrite", run.run.overwrite, "Replace files that exist; otherwise they are an error.");
     flags.on_off("-q,--quiet", run.run.quiet, "Say nothing but errors.");

@@ -15,12 +15,12 @@
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
 #include "app/scene/mesh_transform.h"
+#include "app/scene/rounding_note.h"
 #include "app/scene/schema.h"
 #include "app/scene/shapes.h"
 #include "app/scene/terrain.h"
 #include "app/scene/texture_notes.h"
 #include "app/scene/validate.h"
-#include "core/edges.h"
 #include "core/error.h"
 #include "core/image_io.h"
 #include "core/sky/image_sky.h"
@@ -209,44 +209,8 @@ void check_coordinates(const Builder& b, const SceneTable& table, const char* ki
     }
 }
 
-/// How a mesh bears the rounding of its corners to floats where it stands.
-struct Rounding {
-    float step = 0;                         ///< of a float at the mesh's farthest coordinate
-    std::size_t collapsed = 0, coarse = 0;  ///< triangles without an area now; with an edge of a few steps
-};
-
-Rounding rounding_of(const Mesh& made, const Mesh& placed) {
-    constexpr float few_steps = 4;
-    float farthest = 0;
-    for (const Vec3f p : placed.positions)
-        farthest = std::max({farthest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-    Rounding r;
-    r.step = std::nextafter(farthest, 2 * farthest + 1) - farthest;
-    const auto corner = [](const Mesh& mesh, std::size_t t, std::size_t k) {
-        return mesh.positions[mesh.triangles[t].v[k % 3]];
-    };
-    const auto flat = [&](const Mesh& mesh, std::size_t t) {
-        return is_degenerate(corner(mesh, t, 0), corner(mesh, t, 1), corner(mesh, t, 2));
-    };
-    for (std::size_t t = 0; t < placed.triangles.size(); ++t) {
-        bool coarse = false;
-        for (std::size_t k = 0; k < 3; ++k)
-            coarse |= length(corner(placed, t, k + 1) - corner(placed, t, k)) < few_steps * r.step;
-        if (!coarse || flat(made, t)) continue;
-        ++(flat(placed, t) ? r.collapsed : r.coarse);
-    }
-    return r;
-}
-
-/// Far from the origin floats are coarse, and details of a few of their steps are lost or bent.
-void note_rounding(Builder& b, const SceneTable& table, const Mesh& made, const Mesh& placed) {
-    const std::size_t count = made.triangles.size();
-    const Rounding r = rounding_of(made, placed);
-    // A scan has slivers that rounding costs wherever it stands.
-    if (1000 * r.collapsed <= count && 10 * r.coarse <= count) return;
-    add_note(b, fmt::format("mesh '{}': single precision has steps of {:.3g} m where it stands: {} of {} "
-                            "triangles collapse, {} more have edges of a few steps",
-                            text(table, "id"), r.step, r.collapsed, count, r.coarse));
+void note_rounding(Builder& b, const std::string& whose, const Mesh* made, const Mesh& placed) {
+    if (const std::string note = rounding_note(whose, made, placed); !note.empty()) add_note(b, note);
 }
 
 /// Before `more` triangles are added, a number of any type.
@@ -280,15 +244,24 @@ void add_mesh(Builder& b, const SceneTable& table) {
         }
         transform_mesh(copy, instances.empty() ? own : placement_of(*instances[i]) * own);
         check_coordinates(b, table, "mesh", copy);
-        note_rounding(b, table, part.mesh, copy);
+        note_rounding(b, fmt::format("mesh '{}'", text(table, "id")), &part.mesh, copy);
         append_mesh(b.scene.mesh, copy);
     }
 }
 
+std::uint32_t terrain_look(Builder& b, const std::string& id, const ElevationModel& model) {
+    const std::uint32_t material =
+        add_terrain_look(b.scene, id, model, (b.limits.texture_mib << 20) - b.texture_memory);
+    const Image<Vec3f>& finest = b.scene.textures.back().levels[0];
+    b.texture_memory += texture_bytes(finest.width, finest.height);
+    return material;
+}
+
 void add_terrain(Builder& b, const SceneTable& table) {
-    const TerrainOptions options = terrain_options_of(table, b.limits);
+    TerrainOptions options = terrain_options_of(table, b.limits);
+    options.elevation.as_mesh = true;
     const auto model = load_named(b, table, "file", [&](const auto& path) {
-        return load_elevation(path, text(table, "file"), b.access, options.elevation);
+        return load_elevation(path, text(table, "file"), b.access, b.limits, options.elevation);
     });
     const std::string whose = fmt::format("terrain '{}'", text(table, "id"));
     check_total(b, whose, height_mesh_triangles(model.field.width(), model.field.height()));
@@ -297,8 +270,9 @@ void add_terrain(Builder& b, const SceneTable& table) {
     set_objects(table, options.casts_shadow, mesh);
     mesh.material.assign(mesh.triangles.size(), table.has("material")
                                                     ? b.materials.find(text(table, "material"))->second
-                                                    : add_terrain_look(b.scene, text(table, "id"), model));
+                                                    : terrain_look(b, text(table, "id"), model));
     check_coordinates(b, table, "terrain", mesh);
+    note_rounding(b, whose, nullptr, mesh);
     append_mesh(b.scene.mesh, mesh);
 }
 

@@ -86,6 +86,7 @@ const TableSpec& terrain_table() {
 TerrainOptions terrain_options_of(const SceneTable& terrain, const Limits& limits) {
     TerrainOptions o;
     o.elevation.max_bytes = limits.memory_mib << 20;
+    o.elevation.advice = " (limits.memory_mib)";
     read_rows(elevation_rows(), terrain, o.elevation);
     read_rows(place_rows(), terrain, o.mesh);
     read_rows(option_rows(), terrain, o);

@@ -9,8 +9,6 @@
 namespace obscura {
 namespace {
 
-constexpr std::int64_t largest_file = std::int64_t{1} << 32;
-
 using Colour = std::array<double, 3>;  // sRGB codes
 
 Colour mixed(const Colour& a, const Colour& b, double share) {
@@ -52,11 +50,12 @@ double slope_at(const HeightField& f, int x, int y) {
     return std::sqrt(dx * dx + dy * dy);
 }
 
-Texture terrain_picture(const std::string& name, const ElevationModel& model, const Limits& limits) {
+Texture terrain_picture(const std::string& name, const ElevationModel& model, const Limits& limits,
+                        std::int64_t max_bytes) {
     const HeightField& f = model.field;
     int step = 1;
     while (std::max(f.width(), f.height()) / step > limits.texture_px ||
-           texture_bytes(f.width() / step, f.height() / step) > (limits.texture_mib << 20) / 2)
+           texture_bytes(f.width() / step, f.height() / step) > max_bytes)
         ++step;
     const int width = std::max(1, f.width() / step), height = std::max(1, f.height() / step);
     Image<Rgba8> picture(width, height);
@@ -79,13 +78,14 @@ Texture terrain_picture(const std::string& name, const ElevationModel& model, co
 }  // namespace
 
 ElevationModel load_elevation(const std::filesystem::path& file, const std::string& named,
-                              const FileAccess& access, const ElevationOptions& options) {
-    const std::string bytes = read_file(file, largest_file);
+                              const FileAccess& access, const Limits& limits,
+                              const ElevationOptions& options) {
+    const std::string bytes = read_model_bytes(file, limits);
     std::optional<std::string> description;
     const std::string beside = sidecar_name(file.filename().string());
     if (!beside.empty()) {
         try {
-            description = read_file(resolve_beside(access, file.parent_path(), beside), largest_file);
+            description = read_model_bytes(resolve_beside(access, file.parent_path(), beside), limits);
         } catch (const MissingFile&) {
             // Then the scene has to say what it would have said.
         }
@@ -96,12 +96,14 @@ ElevationModel load_elevation(const std::filesystem::path& file, const std::stri
     return model;
 }
 
-std::uint32_t add_terrain_look(Scene& scene, const std::string& id, const ElevationModel& model) {
+std::uint32_t add_terrain_look(Scene& scene, const std::string& id, const ElevationModel& model,
+                               std::int64_t max_bytes) {
+    const std::int64_t half = (scene.limits.texture_mib << 20) / 2;
     Material look{.name = id + "/ground"};
     look.base_color = {1, 1, 1};
     look.roughness = 0.95f;
     look.texture = static_cast<std::int32_t>(scene.textures.size());
-    scene.textures.push_back(terrain_picture(look.name, model, scene.limits));
+    scene.textures.push_back(terrain_picture(look.name, model, scene.limits, std::min(half, max_bytes)));
     scene.materials.push_back(std::move(look));
     return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }

@@ -99,12 +99,26 @@ FarDay make_far_day(const HeightField& field, std::span<const FarSun> suns, cons
     return day;
 }
 
+namespace {
+
+bool is_intact(const FarDay& day, const FarUnit& unit) {
+    const auto bytes = day.bytes.subspan(unit.offset, unit.bytes);
+    return bulk_hash(bytes.data(), bytes.size()) == unit.hash;
+}
+
+}  // namespace
+
+bool is_intact(const FarDay& day) {
+    return std::all_of(day.units.begin(), day.units.end(),
+                       [&](const FarUnit& unit) { return is_intact(day, unit); });
+}
+
 std::vector<TileBits> far_tile(const FarDay& day, int group, int tile, const std::string& name) {
     CHECK(group >= 0 && group < day.groups() && tile >= 0 && tile < day.tiles());
     const FarUnit& unit = day.units[static_cast<std::size_t>(group) * static_cast<std::size_t>(day.tiles()) +
                                     static_cast<std::size_t>(tile)];
     const auto bytes = day.bytes.subspan(unit.offset, unit.bytes);
-    if (bulk_hash(bytes.data(), bytes.size()) != unit.hash) {
+    if (!is_intact(day, unit)) {
         throw InputError(
             name, fmt::format("is altered: the checksum of tile {} of suns {} and following differs", tile,
                               day.suns_of(group).first));

@@ -91,6 +91,9 @@ struct FarDayWatch {
 FarDay make_far_day(const HeightField& field, std::span<const FarSun> suns, const FarDayParams& params,
                     const Exec& exec, const FarDayWatch& watch = {});
 
+/// Whether the bytes of all units are those that were written, by their checksums; nothing is decoded.
+bool is_intact(const FarDay& day);
+
 /// The maps of one unit, sun after sun. Throws InputError, naming `name`, when its bytes are not those that
 /// were written.
 std::vector<TileBits> far_tile(const FarDay& day, int group, int tile,

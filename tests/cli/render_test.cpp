@@ -30,6 +30,25 @@ TEST(Render, WithoutFlagsThePictureIsNamedAfterTheScene) {
     EXPECT_NE(picture(32, 24), picture(0, 0)) << "nothing is to be seen";
 }
 
+TEST(Render, TerrainIsSeenInItsMaterial) {
+    const Folder folder;
+    folder.write("t.asc", "ncols 3\nnrows 3\ncellsize 10\n1 2 1\n2 6 2\n1 2 1\n");
+    folder.write(
+        "s.toml",
+        "format = 1\n[camera]\neye_m = [0, 40, 30]\nlook_at_m = [0, 3, 0]\n[[terrain]]\nid = \"t\"\n"
+        "file = \"t.asc\"\nmaterial = \"red\"\nskirt_m = 2\ntranslate_m = [0, 1, 0]\n"
+        "[material.red]\nbase_color = [0.8, 0.02, 0.02]\n[[light]]\nid = \"l\"\n"
+        "type = \"directional\"\nazimuth_deg = 120\nelevation_deg = 50\n[render]\nsize_px = [32, 24]\n");
+    const Outcome run = run_in(folder, {"render", "s.toml", "-q"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const Rgba8 middle = png(folder / "s.png")(16, 12);
+    EXPECT_GT(middle.r, 2 * middle.g);
+    EXPECT_GT(middle.r, 2 * middle.b);
+    EXPECT_NE(run_in(folder, {"render", "s.toml", "-q", "--overwrite", "-D", "limits.triangles=31"})
+                  .err.find("brings the scene to 32 triangles"),
+              std::string::npos);
+}
+
 TEST(Render, ExistingFilesAreKeptUnlessToldOtherwise) {
     const SceneFolder folder;
     folder.write("s.png", "mine");

@@ -1,5 +1,6 @@
 // The terrain command on a small hill: its files, said again, and what is refused.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -34,7 +35,6 @@ class TerrainDay : public testing::Test {
         write("hill.asc", grid.str());
         write("day.toml", scene("[[terrain]]\nid = \"t\"\nfile = \"hill.asc\"\n"));
         options.run.scene = folder / "day.toml";
-        options.run.quiet = true;
         options.suns = 20;
         options.threshold = 4;
         options.tile_side = 64;
@@ -120,6 +120,35 @@ TEST_F(TerrainDay, AgainIsNothingToDo) {
     EXPECT_EQ(read_far_file(options.far_shadows).day.params.threshold, 5);
 }
 
+TEST_F(TerrainDay, DamagedFilesAreMadeAgain) {
+    options.hours = options.picture = "";
+    run();
+    const std::string good = bytes(options.far_shadows);
+    std::string bad = good;
+    bad.back() = static_cast<char>(bad.back() ^ 1);
+    write("day.far", bad);
+    EXPECT_NE(run().find("far shadows of 20 suns in 2 units"), std::string::npos);
+    EXPECT_EQ(bytes(options.far_shadows), good);
+}
+
+TEST_F(TerrainDay, WhatIsThereIsNotReplacedByAnotherResult) {
+    options.hours = options.picture = "";
+    options.far_shadows = folder / "d.pfm";
+    run();
+    const std::string far = bytes(options.far_shadows);
+    options.hours = options.far_shadows;
+    options.run.overwrite = true;
+    EXPECT_NE(error<UsageError>().find("would be written twice"), std::string::npos);
+    EXPECT_EQ(bytes(options.far_shadows), far);
+}
+
+TEST_F(TerrainDay, QuietIsQuiet) {
+    options.run.quiet = true;
+    EXPECT_EQ(run(), "");
+    options.hours = options.picture = "";
+    EXPECT_EQ(run(), "");
+}
+
 TEST_F(TerrainDay, WhatIsRefused) {
     write("bare.toml", scene(""));
     options.run.scene = folder / "bare.toml";
@@ -129,11 +158,16 @@ TEST_F(TerrainDay, WhatIsRefused) {
     EXPECT_NE(error<UsageError>().find("no terrain 'T'"), std::string::npos);
     options.terrain = "";
     options.run.overrides = {"limits.memory_mib=1", "terrain.t.file=large.asc"};
-    std::string large = "ncols 300\nnrows 300\ncellsize 1\n";
-    for (int i = 0; i < 300 * 300; ++i)
-        large += "1 ";
-    write("large.asc", large);
-    EXPECT_NE(error<LimitError>().find("more than"), std::string::npos);
+    const auto write_large = [&](int side) {
+        std::string large = fmt::format("ncols {}\nnrows {}\ncellsize 1\n", side, side);
+        for (int i = 0; i < side * side; ++i)
+            large += "1 ";
+        write("large.asc", large);
+    };
+    write_large(250);
+    EXPECT_NE(error<LimitError>().find("a day over 250 x 250 samples takes 1 MiB"), std::string::npos);
+    write_large(300);
+    EXPECT_NE(error<LimitError>().find("an eighth of limits.memory_mib"), std::string::npos);
     options.run.overrides = {};
     options.far_shadows = options.hours = options.picture = "";
     EXPECT_NE(error<UsageError>().find("nothing to make"), std::string::npos);
