@@ -12,8 +12,9 @@ constexpr int rise_fraction_bits = 36;                    ///< of rise_q36
 
 /// Towards the sun one goes from line to line of the grid: columns of samples when the sun stands more east
 /// or west than north or south (counted in cells), else rows. From one line to the next one moves along the
-/// line by at most a cell, and a ray rises. Both are rounded, the azimuth by less than 3e-5 degrees, and from
-/// then on nothing is: what is computed for a HeightSun is what real arithmetic gives for it.
+/// line by at most a cell, and a ray rises. Both are rounded, the azimuth by less than 3e-5 degrees (times
+/// the ratio of a cell's sides), and from then on nothing is: what is computed for a HeightSun is what real
+/// arithmetic gives for it.
 struct HeightSun {
     bool lines_are_columns = true;
     std::int8_t step_line = 1;   ///< 1 when column (row) numbers grow towards the sun, else -1

@@ -20,8 +20,10 @@ struct SweepStats {
 /// A map for each threshold d >= 0: the samples that ground from the d-th line beyond their own on hides from
 /// the sun. 0 gives whole shadows, the others the far shadows of Chajdas, Reichl, Dick, Westermann,
 /// "High-Quality Shadows for Streaming Terrain Rendering" (Eurographics 2014, short papers), section 3.1:
-/// casters nearer than d lines do not count. Every bit is that of march_shadows(), {d, all}. Time O(samples),
-/// memory O(samples of a line) beside the result.
+/// casters nearer than d lines do not count. Every bit is that of march_shadows(), {d, all}. On ground
+/// time is near O(samples) and memory near a line of samples beside the result. That is no bound: a profile
+/// keeps each line that some sample still sees, and ground that is made for it keeps up to all samples', in
+/// memory and in the time of every merge.
 std::vector<ShadowBits> sweep_shadows(const HeightField& field, const HeightSun& sun,
                                       std::span<const int> thresholds, SweepStats* stats = nullptr);
 
