@@ -77,7 +77,7 @@ SceneLight light_over(Source& source, const Lattice& lattice) {
 }
 
 /// Each has about 1200 receivers whose surroundings are lit or dark, and asks for them seven times.
-constexpr unsigned slow_scenes = 1200;
+constexpr unsigned slow_scenes = 240;
 
 void expect_agreement(Scene& scene, double margin_m, int& lit, int& dark) {
     struct Way {
