@@ -43,7 +43,8 @@ TEST_P(AutoAccuracy, WrongPixelsAgainstExactRays) {
     std::vector<ShadowRecipe> recipes = shadow_recipes(shared_folder("data"), false);
     const auto recipe = std::find_if(recipes.begin(), recipes.end(),
                                      [](const ShadowRecipe& r) { return r.name == GetParam().scene; });
-    if (recipe == recipes.end()) GTEST_SKIP() << "no " << GetParam().scene << " in " << shared_folder("data");
+    if (recipe == recipes.end())
+        GTEST_SKIP() << "SKIPPED: no " << GetParam().scene << " in " << shared_folder("data");
     SweepStage stage(*recipe, {640, 360});
     for (const double most : {1.0, 0.5, frame_magnification}) {
         const SweepResult found = wrong_at(stage, most);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <fstream>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include "core/sun_path.h"
 #include "hierarchy/terrain/far_file.h"
 #include "raster/heights/height_sweep.h"
+#include "tests/core/temporary_folder.h"
 
 namespace obscura {
 namespace {
@@ -23,9 +23,6 @@ namespace fs = std::filesystem;
 class TerrainDay : public testing::Test {
   protected:
     void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "obscura_terrain_XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
         std::ostringstream grid;
         grid << "ncols 40\nnrows 30\ncellsize 10\n";
         for (int y = 0; y < 30; ++y) {
@@ -42,7 +39,6 @@ class TerrainDay : public testing::Test {
         options.hours = folder / "hours.pfm";
         options.picture = folder / "hours.png";
     }
-    void TearDown() override { fs::remove_all(folder); }
 
     static std::string scene(const std::string& terrain) {
         return "format = 1\n[camera]\neye_m = [0, 90, 200]\nlook_at_m = [0, 0, 0]\n" + terrain +
@@ -71,7 +67,8 @@ class TerrainDay : public testing::Test {
         return "no error";
     }
 
-    fs::path folder;
+    TemporaryFolder temporary;
+    const fs::path folder = temporary.path;
     TerrainDayOptions options;
 };
 
@@ -107,7 +104,7 @@ TEST_F(TerrainDay, ShadowsAndHoursOfTheDay) {
     EXPECT_GE(picture.height, 30);
 }
 
-TEST_F(TerrainDay, AgainIsNothingToDo) {
+TEST_F(TerrainDay, TheSameDayAgainMakesNothing) {
     options.hours = options.picture = "";
     run();
     const auto time = fs::last_write_time(options.far_shadows);

@@ -48,7 +48,9 @@ std::vector<HeightSun> day_of(const HeightField& field, int step) {
 
 TEST(TerrainData, JacksborosSweepIsItsMarch) {
     const auto field = real_ground("jacksboro");
-    if (!field) GTEST_SKIP() << "SKIPPED: no data/terrain";
+    if (!field)
+        GTEST_SKIP() << "SKIPPED: no elevation model here: "
+                     << "jacksboro";
     SweepStats stats;
     std::int64_t dark = 0;
     for (const HeightSun& sun : day_of(*field, all_cases() ? 1 : 40)) {
@@ -66,7 +68,7 @@ TEST(TerrainData, JacksborosSweepIsItsMarch) {
 TEST(TerrainData, OtherGroundOnSamples) {
     for (const char* name : {"baltoro_srtm3", "etna_srtm3", "sierra_30m", "greenriver_lidar_1m"}) {
         const auto field = real_ground(name);
-        if (!field) GTEST_SKIP() << "SKIPPED: no data/terrain";
+        if (!field) GTEST_SKIP() << "SKIPPED: no elevation model here: " << name;
         std::int64_t compared = 0, dark = 0;
         for (const HeightSun& sun : day_of(*field, all_cases() ? 8 : 79)) {
             constexpr int thresholds[] = {0, 16};

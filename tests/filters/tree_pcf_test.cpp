@@ -165,21 +165,28 @@ std::vector<SurfaceBlock> surfaces_of(const Scene& scene) {
     return blocks;
 }
 
+/// A box and a ball on the ground, before a light of this kind that has no shadows of its own.
+Scene solids_before(LightKind kind) {
+    Scene scene = frame_scenes::empty_scene(128, 64);
+    frame_scenes::add(scene, box({-4, -0.5, -4}, {4, 0, 4}), 0);
+    frame_scenes::add(scene, box({-1.6f, 0, -0.6f}, {-0.6f, 1.4f, 0.5f}), 0);
+    frame_scenes::add(scene, sphere(0.7, 16, 9), 0, {0.7f, 0.9f, 0.2f});
+    scene.camera.eye = {1.5, 3, 5};
+    scene.camera.look_at = {0, 0.3, 0};
+    SceneLight light = kind == LightKind::directional
+                           ? frame_scenes::directional({0.6, -1, -0.3}, {1, 1, 1}, 3, 256)
+                           : frame_scenes::at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
+    light.light.outer_cone_deg = 70;
+    light.shadow.method = ShadowMethod::none;
+    scene.lights.push_back(light);
+    return scene;
+}
+
 TEST(TreePcfScenes, LightsOfEveryKindSeeWhatTheirDenseMapsShow) {
     for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
-        Scene scene = frame_scenes::empty_scene(128, 64);
-        frame_scenes::add(scene, box({-4, -0.5, -4}, {4, 0, 4}), 0);
-        frame_scenes::add(scene, box({-1.6f, 0, -0.6f}, {-0.6f, 1.4f, 0.5f}), 0);
-        frame_scenes::add(scene, sphere(0.7, 16, 9), 0, {0.7f, 0.9f, 0.2f});
+        Scene scene = solids_before(kind);
         frame_scenes::add(scene, plane(1.5, 1.5), 0, {1.8f, 1.0f, 1.3f});
-        scene.camera.eye = {1.5, 3, 5};
-        scene.camera.look_at = {0, 0.3, 0};
-        SceneLight light = kind == LightKind::directional
-                               ? frame_scenes::directional({0.6, -1, -0.3}, {1, 1, 1}, 3, 256)
-                               : frame_scenes::at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
-        light.light.outer_cone_deg = 70;
-        light.shadow.method = ShadowMethod::none;
-        scene.lights.push_back(light);
+        SceneLight light = scene.lights[0];
         const std::vector<SurfaceBlock> blocks = surfaces_of(scene);
         ShadowMap map;
         map.views = shadow_views(light, bounds_of(scene.mesh));
@@ -222,18 +229,8 @@ TEST(TreePcfScenes, LightsOfEveryKindSeeWhatTheirDenseMapsShow) {
 /// Where values vary within a leaf, each tap has its own: what lookups of single texels find, level by level.
 TEST(TreePcfScenes, PlanesAndEdgesAreFilteredTexelByTexel) {
     for (const LightKind kind : {LightKind::directional, LightKind::point, LightKind::spot}) {
-        Scene scene = frame_scenes::empty_scene(128, 64);
-        frame_scenes::add(scene, box({-4, -0.5, -4}, {4, 0, 4}), 0);
-        frame_scenes::add(scene, box({-1.6f, 0, -0.6f}, {-0.6f, 1.4f, 0.5f}), 0);
-        frame_scenes::add(scene, sphere(0.7, 16, 9), 0, {0.7f, 0.9f, 0.2f});
-        scene.camera.eye = {1.5, 3, 5};
-        scene.camera.look_at = {0, 0.3, 0};
-        SceneLight light = kind == LightKind::directional
-                               ? frame_scenes::directional({0.6, -1, -0.3}, {1, 1, 1}, 3, 256)
-                               : frame_scenes::at_point(kind, {0.2, 2.6, 1.4}, {-0.1, -1, -0.5}, {1, 1, 1});
-        light.light.outer_cone_deg = 70;
-        light.shadow.method = ShadowMethod::none;
-        scene.lights.push_back(light);
+        const Scene scene = solids_before(kind);
+        SceneLight light = scene.lights[0];
         const std::vector<SurfaceBlock> blocks = surfaces_of(scene);
         ShadowMap map;
         map.views = shadow_views(light, bounds_of(scene.mesh));

@@ -1,7 +1,6 @@
 // [[terrain]] in scenes: where it stands, what it looks like, and what limits say to it.
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include "app/scene/build.h"
 #include "app/scene/scene_file.h"
 #include "core/error.h"
+#include "tests/core/temporary_folder.h"
 
 namespace obscura {
 namespace {
@@ -20,12 +20,8 @@ namespace fs = std::filesystem;
 class TerrainScene : public testing::Test {
   protected:
     void SetUp() override {
-        std::string name = (fs::temp_directory_path() / "obscura_terrain_scene_XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder = name;
         std::ofstream(folder / "t.asc") << "ncols 4\nnrows 3\ncellsize 10\n1 2 3 4\n5 9 7 6\n1 2 3 2\n";
     }
-    void TearDown() override { fs::remove_all(folder); }
 
     Scene build(const std::string& keys, const std::string& more = "") const {
         const SceneDocument document = read_scene_text(
@@ -46,7 +42,8 @@ class TerrainScene : public testing::Test {
         return "no error";
     }
 
-    fs::path folder;
+    TemporaryFolder temporary;
+    const fs::path folder = temporary.path;
 };
 
 TEST_F(TerrainScene, StandsWhereItIsPut) {
