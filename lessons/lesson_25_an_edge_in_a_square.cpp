@@ -146,12 +146,14 @@ void draw_bytes(Figure& f, const Mesh& mesh, const Exec& exec) {
     f.polyline(ours, {ink::red, 2});
     f.text(plain.back() + Vec2d{10, 4}, "depths");
     f.text(ours.back() + Vec2d{10, 4}, "planes and edges", {9.5, ink::red, Align::left, true});
-    f.paragraph(
-        {1010, 700},
-        "An edge through a square is one leaf at any resolution: what\ngrows is the way down to the places "
-        "where edges meet, by\na few nodes a level. A tree of depths has twice as many\nnodes along every "
-        "edge.\n\nWhat each texel decodes to lies in its interval, as in every\nother code, at every one of "
-        "them.");
+    f.paragraph({1010, 700},
+                "An edge through a square is one leaf at any resolution.\nWhat grows is the way down to the "
+                "places where edges meet,\n"
+                "and the lines where this town's roofs and walls pierce\neach other, which are no edges of "
+                "its mesh: squares there\n"
+                "are divided to texels. A tree of depths has twice as many\nnodes along every edge.\n\nWhat "
+                "each texel decodes to lies in its interval, as in every\nother code, at every one of "
+                "them.");
 }
 
 }  // namespace
