@@ -11,6 +11,7 @@
 #include "app/cli/scene_flags.h"
 #include "app/cli/signals.h"
 #include "app/cli/targets.h"
+#include "app/cli/terrain_suns.h"
 #include "app/frame/sun_hours_text.h"
 #include "app/report/output_plan.h"
 #include "app/report/sun_hours_picture.h"
@@ -19,7 +20,6 @@
 #include "app/scene/validate.h"
 #include "core/error.h"
 #include "core/image_io.h"
-#include "core/sun_path.h"
 #include "hierarchy/terrain/far_file.h"
 
 namespace obscura {
@@ -43,16 +43,6 @@ Light sun_of(const SceneDocument& document) {
     }
     throw InputError(document.sources[0],
                      "has no [[light]] of type \"sun\", whose way over the day is wanted");
-}
-
-std::vector<FarSun> suns_of(const HeightField& field, SunPath path, const TerrainDayOptions& options) {
-    path.steps = static_cast<int>(options.suns);
-    std::vector<FarSun> suns;
-    for (const SunStep& s : sun_steps_by_travel(path, options.least_elevation_deg)) {
-        suns.push_back({s.hour_h, s.hours, s.azimuth_deg, s.elevation_deg,
-                        height_sun(field, s.azimuth_deg, s.elevation_deg)});
-    }
-    return suns;
 }
 
 /// Maps in the making of one group of suns, and the sums; bits and floats for each sample.
@@ -114,8 +104,9 @@ void write_hours(const Image<float>& hours, const Light& sun, const TerrainDayOp
 int terrain_command(const TerrainDayOptions& options) {
     const SceneRun& run = options.run;
     const bool wants_hours = !options.hours.empty() || !options.picture.empty();
-    if (!wants_hours && options.far_shadows.empty())
-        throw UsageError("nothing to make: give -o, --hours or --picture (see 'obscura terrain --help')");
+    if (!wants_hours && options.far_shadows.empty() && options.list.empty())
+        throw UsageError(
+            "nothing to make: give -o, --hours, --picture or --list (see 'obscura terrain --help')");
     const SceneDocument document = read_scene(run.scene, run.overrides);
     const FileAccess access = recording_access(run, document);
     const SceneTable& table = chosen_terrain(document, options.terrain);
@@ -126,7 +117,8 @@ int terrain_command(const TerrainDayOptions& options) {
                                              terrain_options_of(table, limits).elevation)
                                   .field;
     check_memory(field, limits, document.sources[0]);
-    const std::vector<FarSun> suns = suns_of(field, *sun.path, options);
+    const std::vector<FarSun> suns =
+        suns_of_day(field, *sun.path, static_cast<int>(options.suns), options.least_elevation_deg);
     if (suns.empty() && !run.quiet) say_note(no_sun_text(sun.id, *sun.path));
     const FarDayParams params{static_cast<int>(options.threshold), static_cast<int>(options.tile_side)};
     const TreeFileKey key{far_day_hash(field, suns, params), far_file_kind};
@@ -135,7 +127,7 @@ int terrain_command(const TerrainDayOptions& options) {
     const bool made = state == FarFileState::made;
     // What is there already, or is to be repaired, may exist; but no other result may go to it.
     std::vector<std::filesystem::path> all, fresh;
-    for (const auto* path : {&options.hours, &options.picture, &options.far_shadows}) {
+    for (const auto* path : {&options.hours, &options.picture, &options.list, &options.far_shadows}) {
         if (path->empty()) continue;
         all.push_back(*path);
         if (path != &options.far_shadows || state == FarFileState::other) fresh.push_back(*path);
@@ -148,6 +140,8 @@ int terrain_command(const TerrainDayOptions& options) {
     if (state == FarFileState::damaged && !run.quiet)
         say_note(fmt::format("{} is damaged and is made again", options.far_shadows.string()));
 
+    if (!options.list.empty())
+        write_file_atomically(options.list, sun_list_text(*sun.path, suns), run.existing());
     set_signal_policy(OnSignal::ask_to_stop);
     Progress progress(stderr, Progress::style_for(stderr, run.quiet));
     if (made) {
@@ -185,7 +179,7 @@ int run_terrain(const Arguments& arguments) {
                 "way of the scene's sun.");
     RunFlags run;
     TerrainDayOptions options;
-    std::string far_shadows, hours, picture;
+    std::string far_shadows, hours, picture, list;
     flags.positional("SCENE", run.scene.scene, "The scene file (TOML).");
     flags.group("Scene");
     flags.list("-D,--define", "KEY=VALUE", run.scene.overrides,
@@ -210,6 +204,7 @@ int run_terrain(const Arguments& arguments) {
         "Hours of sun of every sample (.pfm), without those in which the sun stands below --least-elevation.",
         "none");
     flags.text("--picture", "FILE", picture, "The same in colours, with a scale (.png).", "none");
+    flags.text("--list", "FILE", list, "When the suns stand where, and for how many hours (.csv).", "none");
     flags.on_off("--overwrite", run.run.overwrite, "Replace files that exist; otherwise they are an error.");
     flags.on_off("-q,--quiet", run.run.quiet, "Say nothing but errors.");
     add_exec_flags(flags, run.threads, run.isa);
@@ -224,6 +219,7 @@ int run_terrain(const Arguments& arguments) {
     options.far_shadows = far_shadows;
     options.hours = hours;
     options.picture = picture;
+    options.list = list;
     return terrain_command(options);
 }
 

@@ -16,6 +16,7 @@ struct TerrainDayOptions {
     std::filesystem::path far_shadows;  ///< where they go; empty: nowhere
     std::filesystem::path hours;        ///< .pfm; empty: nowhere
     std::filesystem::path picture;      ///< of the hours, .png; empty: nowhere
+    std::filesystem::path list;         ///< of the suns, .csv; empty: nowhere
     std::int64_t suns = 158;
     std::int64_t threshold = 16;  ///< lines of the grid
     std::int64_t tile_side = 512;

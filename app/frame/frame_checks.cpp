@@ -4,6 +4,7 @@
 
 #include <initializer_list>
 
+#include "app/frame/day_shadow.h"
 #include "app/frame/memory.h"
 #include "app/frame/shadows.h"
 #include "app/frame/stack_shadow.h"
@@ -90,6 +91,17 @@ void FrameChecks::check_lens(const Scene& scene, int frame) const {
     }
 }
 
+void FrameChecks::check_days(const Scene& scene, int frame) const {
+    const std::vector<const SceneTable*> lights = subtables(document.root, "light");
+    obscura::check_days(scene, [&](std::size_t light, const std::string& why) {
+        const SceneTable& table = *lights[light];
+        const Place place =
+            animated_place(light_at(document, table, frame), table, {"time", "azimuth_deg", "elevation_deg"})
+                .value_or(place_of(subtable(table, "shadow"), "day_file"));
+        fail_at(place, document.sources, frame_text(document, frame) + why);
+    });
+}
+
 void FrameChecks::check_stacks(const Scene& scene, int frame) const {
     const std::vector<const SceneTable*> lights = subtables(document.root, "light");
     check_stack_plans(scene, [&](std::size_t light, const std::string& why) {
@@ -102,7 +114,10 @@ void FrameChecks::check_stacks(const Scene& scene, int frame) const {
 }
 
 void FrameChecks::check(const Scene& scene, int frame, std::int64_t further_bytes) {
-    if (last_lights != scene.lights) check_stacks(scene, frame);
+    if (last_lights != scene.lights) {
+        check_stacks(scene, frame);
+        check_days(scene, frame);
+    }
     last_lights = scene.lights;
     Needs now{optics_of(document, frame), std::nullopt, {}, further_bytes};
     if (now.optics.enabled) now.seen = scene.sky;

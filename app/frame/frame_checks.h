@@ -31,6 +31,7 @@ class FrameChecks {
   private:
     void check_lens(const Scene& scene, int frame) const;
     void check_stacks(const Scene& scene, int frame) const;
+    void check_days(const Scene& scene, int frame) const;
 
     const SceneDocument& document;
     FrameOptions channels;

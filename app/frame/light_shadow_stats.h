@@ -34,7 +34,9 @@ struct LightShadowStats {
     int samples = 1;           ///< points of a light with a size that each pixel asks; maps of a stack
     float penumbra_px = 0;     ///< samples "auto": of the widest penumbra, up to most_auto_samples
     int anisotropy = 0;        ///< stack: of its octree
-    std::int64_t casters = 0;  ///< exact: triangles, in all views together
+    std::int64_t casters = 0;  ///< exact: triangles, in all views together; day: those beside the ground
+    std::string sun_text;      ///< day: the file's sun whose shadows are taken,
+    double sun_off_deg = 0;    ///< and how far from the light it stands
     MultiresCounts nodes;
     std::uint64_t bytes = 0;  ///< of the map or the serialised trees, top grids included
     BuildStats build;

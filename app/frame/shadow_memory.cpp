@@ -23,8 +23,9 @@ namespace obscura {
 namespace {
 
 bool any_exact(std::span<const SceneLight> lights) {
-    return std::any_of(lights.begin(), lights.end(),
-                       [](const SceneLight& light) { return light.shadow.method == ShadowMethod::exact; });
+    return std::any_of(lights.begin(), lights.end(), [](const SceneLight& light) {
+        return light.shadow.method == ShadowMethod::exact || light.shadow.method == ShadowMethod::day;
+    });
 }
 
 /// Parts of a disc that one pass asks, as add_soft_lights() shares them out.

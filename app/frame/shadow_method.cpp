@@ -1,5 +1,6 @@
 #include "app/frame/shadow_method.h"
 
+#include "app/frame/day_shadow.h"
 #include "app/frame/dense_shadow.h"
 #include "app/frame/exact_shadow.h"
 #include "app/frame/stack_shadow.h"
@@ -51,6 +52,16 @@ constexpr ShadowMethodRow rows[] = {
      .make = make_stack_shadow,
      .give = give_stack_shadow,
      .text = stack_shadow_text},
+    {.method = ShadowMethod::day,
+     .maps_middle = true,
+     .whole_blocks = false,
+     .uses_layers = false,
+     .bytes = day_shadow_bytes,
+     .plan = day_plan_text,
+     .query = nullptr,
+     .make = make_day_shadow,
+     .give = give_day_shadow,
+     .text = day_shadow_text},
 };
 
 }  // namespace

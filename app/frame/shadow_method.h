@@ -1,6 +1,6 @@
 #pragma once
 // The ways to make a light's shadows, a row each. What a row points to stands with its method: dense_shadow,
-// tree_shadow, exact_shadow, stack_shadow.
+// tree_shadow, exact_shadow, stack_shadow, day_shadow.
 
 #include <atomic>
 #include <cstdint>

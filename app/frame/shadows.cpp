@@ -80,6 +80,7 @@ void plan_shadows(const ShadowWork& work) {
             shadow.trees.clear();
             shadow.exact.clear();
             shadow.stack.reset();
+            shadow.day.reset();
             shadow.stats = fresh;
             if (light.shadow.method == ShadowMethod::map) {
                 shadow.map.views.clear();  // not valid until it is built; its memory is used again

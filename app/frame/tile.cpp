@@ -210,6 +210,11 @@ void block_shade(const TileScene& scene, const ExactBlock& exact, Isa isa, bool 
             OBSCURA_DISPATCH(isa, pcf_block, work.surface, *light.pcf, work.visibility);
             if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
         }
+        if (light.day) {
+            const Stopwatch watch;
+            darken_by_ground(*light.day, work.surface, work.visibility);
+            if (!work.lookup_s.empty()) work.lookup_s[l] += watch.seconds();
+        }
         if (light.exact) exact.tile->darken(l, exact.k, exact.first_row, work.visibility);
         OBSCURA_DISPATCH(isa, shade_light, work.surface, light.shade,
                          light.casts_shadows() ? work.visibility : nullptr, work.shade);

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "app/frame/day_tile.h"
 #include "app/frame/frame.h"
 #include "app/frame/soft_light.h"
 #include "app/frame/stack_tile.h"
@@ -30,15 +31,17 @@ struct SurfaceLight;
 struct TileLight {
     ShadeLight shade;
     // Shadows looked up in a map or in trees, and those of the samples themselves. With both, light must pass
-    // both: a tree of what stands still, the samples' own of what moves. With neither, nothing casts any.
+    // both: a tree of what stands still, the samples' own of what moves; or a day's of ground, and the
+    // samples' own of what stands on it. With none, nothing casts any.
     std::optional<PcfLight> pcf;
     std::optional<ExactLight> exact;
+    std::optional<DayLight> day;
     std::optional<StackLight> stack;  ///< of a light with a size: alone, in place of `shade`, too
     std::size_t scene_light = 0;      ///< index into Scene::lights
     std::size_t shadow = 0;           ///< and among those with shadows, when it casts some
     double solid_angle_sr = 0;        ///< of a part of the sky
 
-    bool casts_shadows() const { return pcf || exact || stack; }
+    bool casts_shadows() const { return pcf || exact || day || stack; }
 };
 
 /// Everything the tiles of one frame have in common. Borrows; read only. The picture is the view; the tiles

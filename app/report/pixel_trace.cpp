@@ -55,6 +55,7 @@ class PixelStory {
     void tell_material(int at);
     void tell_exact(const TileLight& light, int at);
     void tell_stack(const TileLight& light, int at);
+    void tell_day(const TileLight& light, int at);
     void tell_light(const TileLight& light, std::size_t shadow, int at);
     void tell_lookup(const TileLight& light, std::size_t shadow, int at);
     bool is(const std::uint32_t* masks, int at) const { return (masks[at / 16] >> (at & 15) & 1u) != 0; }
@@ -164,7 +165,7 @@ void PixelStory::tell_exact(const TileLight& light, int at) {
     const ExactPoints points = tile.points();
     const ref::ExactShadow shadow = ref::exact_shadow(
         points, *light.exact, exact_point_index(0, 1, at % frame_tile_side, at / frame_tile_side));
-    if (!light.pcf) std::fill_n(work_->visibility, block_samples, 1.0f);
+    if (!light.pcf && !light.day) std::fill_n(work_->visibility, block_samples, 1.0f);
     if (!shadow.lit) work_->visibility[at] = 0.0f;
     if (!shadow.asks) {
         say("      exact: the face looks away, visibility 0");
@@ -190,6 +191,16 @@ void PixelStory::tell_exact(const TileLight& light, int at) {
         count_text(static_cast<std::size_t>(shadow.triangles), "triangle"), shadow.triangle, object,
         shadow.distance_m, shadow.behind_m);
     say("      visibility 0");
+}
+
+/// Whether ground hides the light, by a day's far bits and a ray.
+void PixelStory::tell_day(const TileLight& light, int at) {
+    const SurfaceBlock& s = work_->surface;
+    std::fill_n(work_->visibility, block_samples, 1.0f);
+    const bool dark = day_dark(*light.day, s.triangle[at], {s.px[at], s.py[at], s.pz[at]});
+    darken_by_ground(*light.day, s, work_->visibility);
+    say("      day: sun {} of {}; ground hides it: {}; visibility {:g}", light.day->sun->sun,
+        light.day->sun->ground->day.suns.size(), dark ? "yes" : "no", work_->visibility[at]);
 }
 
 /// How many points of a light with a size reach the sample, and what its parts add.
@@ -221,6 +232,7 @@ void PixelStory::tell_light(const TileLight& light, std::size_t shadow, int at) 
         tell_lookup(light, shadow, at);
         ref::pcf_block(work_->surface, *light.pcf, work_->visibility);
     }
+    if (light.day) tell_day(light, at);
     if (light.exact) tell_exact(light, at);
     if (light.stack) return tell_stack(light, at);
     say("      per irradiance: diffuse {}, specular {}, through {}", text_of(terms.diffuse),

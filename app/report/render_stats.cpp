@@ -69,7 +69,9 @@ std::int64_t count(std::uint64_t n) {
 void put_light(JsonWriter& json, const LightShadowStats& s) {
     json.begin_object();
     json.member("light", s.light).member("method", name_of(shadow_method_words, s.method));
-    if (s.method == ShadowMethod::exact) {
+    if (s.method == ShadowMethod::day) {
+        json.member("sun", s.sun_text).member("sun_off_deg", s.sun_off_deg).member("casters", s.casters);
+    } else if (s.method == ShadowMethod::exact) {
         json.member("casters", s.casters).member("points", s.samples);
         if (s.penumbra_px > 0) json.member("penumbra_px", static_cast<double>(s.penumbra_px));
     } else {

@@ -11,6 +11,7 @@
 
 #include "app/models/model_file.h"
 #include "app/scene/aperture_file.h"
+#include "app/scene/days.h"
 #include "app/scene/enclosed_lamps.h"
 #include "app/scene/keyframes.h"
 #include "app/scene/light_kinds.h"
@@ -272,6 +273,7 @@ void add_terrain(Builder& b, const SceneTable& table) {
                                                     ? b.materials.find(text(table, "material"))->second
                                                     : terrain_look(b, text(table, "id"), model));
     check_coordinates(b, table, "terrain", mesh);
+    keep_for_days(b.document, table, options.mesh.middle_m, model.field, mesh, b.scene);
     note_rounding(b, whose, nullptr, mesh);
     append_mesh(b.scene.mesh, mesh);
 }
@@ -363,6 +365,7 @@ Scene build_scene(const SceneDocument& document, const FileAccess& access) {
         add_mesh(b, *mesh);
     for (const SceneTable* terrain : subtables(document.root, "terrain"))
         add_terrain(b, *terrain);
+    add_days(document, access, b.scene);
     add_emitters(b);
     b.scene.optics.mask = lens_mask(b);
     set_frame(b.scene, document, scene_frames(document).first);

@@ -27,7 +27,11 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "compressed: a tree of depth intervals, which gives a map's shadows at resolutions far beyond. "
             "stack: for a light with a size, an octree of the maps of many of its points, built once for all "
             "frames in which the light stands still. "
-            "When not given: compressed where a key that only maps have is given, or where the light "
+            "day: of a light far away, whose suns `obscura terrain` has made far shadows of ground for; rays "
+            "of a few "
+            "samples add near ones, and all that is not that ground casts exact shadows. "
+            "When not given: day where day_file is given; compressed where a key that only maps have is "
+            "given, or where the light "
             "has no keyframes and there are 50 frames or more, which is when a tree pays; else exact. "
             "`obscura check` tells which, and why."),
         count_or_word_row(
@@ -104,6 +108,20 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 "Compressed: how many of the first levels are kept as a table, which saves lookups that "
                 "many steps; 6 when not given.")
                 .in({0, 10})),
+        key_row_if_given(
+            &ShadowSettings::day_file,
+            file_key("day_file",
+                     "Day: the file that `obscura terrain -o` wrote for a [[terrain]] of the scene. It "
+                     "has to be of the same ground, to the last sample.")),
+        key_row_if_given(
+            &ShadowSettings::max_sun_deg,
+            number_key(
+                "max_sun_deg",
+                "Day: how far the light may stand from the nearest sun of the file, whose shadows are taken; "
+                "further off is an error. `obscura terrain --list` tells when the suns stand where. 0.01 "
+                "when "
+                "not given.")
+                .in({1e-6, 10})),
         key_row_if_given(&ShadowSettings::cache, shadow_cache_key()),
     };
     return rows;

@@ -19,6 +19,7 @@ using Sources = std::vector<std::string>;
 constexpr const char* compressed_keys[] = {"scope",      "filter", "max_magnification", "code", "layout",
                                            "top_levels", "cache"};
 constexpr const char* exact_keys[] = {"samples"};
+constexpr const char* day_keys[] = {"day_file", "max_sun_deg"};
 constexpr const char* map_keys[] = {"resolution", "filter_px", "normal_offset_texels"};
 /// What stacks have neither of compressed maps nor of maps.
 constexpr const char* tree_keys[] = {"scope", "filter", "code", "layout", "top_levels"};
@@ -77,6 +78,7 @@ bool is_soft(const SceneTable& light, const SceneTable& settings) {
 /// shaded; a tree pays where both stand still for long.
 ShadowMethod planned_method(const SceneTable& settings, bool cached, bool light_moves, bool soft,
                             int frames) {
+    if (settings.has("day_file")) return ShadowMethod::day;
     if (settings.has("samples")) return ShadowMethod::exact;
     if (has_any(settings, compressed_keys) || has_any(settings, map_keys) || cached ||
         settings.has("receivers")) {
@@ -156,6 +158,18 @@ void complete_stack(SceneTable& settings, const SceneTable& light, const SceneEn
             fmt::format("'resolution' must be at most {} with method = \"stack\"", most_stack_resolution));
     }
     if (cache != nullptr) set_default(settings, "cache", cache->value);
+}
+
+void complete_day(SceneTable& settings, const SceneTable& light, const Sources& sources) {
+    const std::string& type = text(light, "type");
+    if (type != "sun" && type != "directional") {
+        fail_at(
+            place_of(settings, settings.has("day_file") ? "day_file" : "method"), sources,
+            "a day's shadows are a sun's: method = \"day\" needs a light of type \"sun\" or \"directional\"");
+    }
+    if (!settings.has("day_file"))
+        fail_at(place_of(settings, "method"), sources, "method = \"day\" needs 'day_file'");
+    set_default(settings, "max_sun_deg", value_of(ShadowSettings{}.max_sun_deg));
 }
 
 /// Samples of a picture; a pair is two.
@@ -251,6 +265,7 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
         }
         set_default(settings, "receivers", value_of(text(subtable(root, "render"), "receivers").c_str()));
         const ShadowMethod method = value_named(shadow_method_words, text(settings, "method"));
+        if (method != ShadowMethod::day) refuse_keys(settings, day_keys, "method = \"day\"", sources);
         if (method == ShadowMethod::stack) {
             complete_stack(settings, light, cache, sources);
             order_keys(settings);
@@ -265,6 +280,10 @@ void merge_shadows(SceneTable& root, const std::vector<std::string>& light_ids, 
             refuse_keys(settings, exact_keys, "method = \"exact\"", sources);
         }
         if (method == ShadowMethod::map || method == ShadowMethod::compressed) complete_map(settings);
+        if (method == ShadowMethod::day) {
+            refuse_keys(settings, map_keys, "method = \"map\" or \"compressed\"", sources);
+            complete_day(settings, light, sources);
+        }
         if (method == ShadowMethod::map) complete_dense(settings, sources);
         if (method == ShadowMethod::compressed)
             complete_compressed(settings, cache, sample_count(root), sources);
@@ -279,6 +298,7 @@ std::string shadow_method_reason(const SceneTable& root, const SceneTable& light
         return settings.has(key) && place_of(settings, key).source >= 0;
     };
     if (given("method")) return "as asked";
+    if (given("day_file")) return "'day_file' has the suns of a day";
     const auto range = parse_frame_range(text(subtable(root, "frames"), "range"));
     const int frames = range ? range->count() : 1;
     if (text(settings, "method") == name_of(shadow_method_words, ShadowMethod::compressed)) {

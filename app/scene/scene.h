@@ -19,6 +19,9 @@
 
 namespace obscura {
 
+struct GroundDay;
+struct HeightField;
+
 struct RenderSettings {
     int width = 960, height = 540;  ///< pixels
     int samples = 4;                ///< per pixel: 1, 4 or 16
@@ -43,6 +46,22 @@ struct SceneLight {
     friend bool operator==(const SceneLight&, const SceneLight&) = default;
 };
 
+/// A [[terrain]] of the scene that a light's `day` may be of.
+struct SceneTerrain {
+    std::string id;
+    std::shared_ptr<const HeightField> field;
+    Vec3d middle_m;                    ///< where height 0 of its middle stands
+    std::uint32_t first_triangle = 0;  ///< its own are ground, cell by cell, then walls and floor
+    std::uint32_t ground_triangles = 0, triangles = 0;
+    bool casts_shadow = true;
+};
+
+/// What a light's `day_file` holds, and which terrain it is of.
+struct SceneDay {
+    std::shared_ptr<const GroundDay> ground;
+    std::size_t terrain = 0;  ///< index into Scene::terrains
+};
+
 /// One frame's worth of scene: everything is in world space and final.
 struct Scene {
     Mesh mesh;
@@ -52,6 +71,8 @@ struct Scene {
     std::vector<SceneLight> lights;
     /// What lights of surfaces shine from, by the name of the material.
     std::map<std::string, std::shared_ptr<const EmitterSurface>> emitters;
+    std::vector<SceneTerrain> terrains;    ///< where some light has a `day`, else none
+    std::map<std::string, SceneDay> days;  ///< by the light's id
     Sky sky;
     RenderSettings render;
     OpticsSettings optics;

@@ -12,18 +12,17 @@ namespace obscura {
 
 /// `map`: a dense shadow map. `compressed`: a multiresolution hierarchy of the same depth intervals. `exact`:
 /// of the picture's own samples, without a map (raster/exact). `stack`: an octree of the maps of many points
-/// of a light with a size (hierarchy/stack).
-enum class ShadowMethod { none, map, compressed, exact, stack };
+/// of a light with a size (hierarchy/stack). `day`: far shadows of ground from a file for all suns of a day,
+/// near ones by rays (hierarchy/terrain), and exact shadows of all else.
+enum class ShadowMethod { none, map, compressed, exact, stack, day };
 /// Which part of a compressed map is built: what the frame's lookups ask for, or everything.
 enum class ShadowScope { frame, full };
 /// `pcf`: a kernel of texels. `hierarchical`: of the squares that are as large as the pixel on the map.
 enum class ShadowFilter { pcf, hierarchical };
 
-inline constexpr Word<ShadowMethod> shadow_method_words[] = {{"none", ShadowMethod::none},
-                                                             {"map", ShadowMethod::map},
-                                                             {"compressed", ShadowMethod::compressed},
-                                                             {"exact", ShadowMethod::exact},
-                                                             {"stack", ShadowMethod::stack}};
+inline constexpr Word<ShadowMethod> shadow_method_words[] = {
+    {"none", ShadowMethod::none},   {"map", ShadowMethod::map},     {"compressed", ShadowMethod::compressed},
+    {"exact", ShadowMethod::exact}, {"stack", ShadowMethod::stack}, {"day", ShadowMethod::day}};
 inline constexpr Word<ShadowScope> shadow_scope_words[] = {{"frame", ShadowScope::frame},
                                                            {"full", ShadowScope::full}};
 inline constexpr Word<ShadowFilter> shadow_filter_words[] = {{"pcf", ShadowFilter::pcf},
@@ -94,7 +93,9 @@ struct ShadowSettings {
     std::optional<ShadowCode> code = ShadowCode::mh;  ///< none: auto, see chosen_code()
     TreeLayout layout = TreeLayout::words24;          ///< mh only
     int top_levels = 6;                               ///< first levels that are kept as a table, in [0, 10]
-    std::string cache;  ///< folder for finished maps of scope full, and stacks; empty: none
+    std::string day_file;                             ///< day: what `obscura terrain -o` wrote
+    double max_sun_deg = 0.01;  ///< day: between the light and the sun of the file whose shadows it casts
+    std::string cache;          ///< folder for finished maps of scope full, and stacks; empty: none
     friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
 };
 
