@@ -76,10 +76,25 @@ TEST(Kept, ShadowsNoticeEveryKeyOfTheirLight) {
                         "radiance_w_m2_sr", "from", "to", "steps"});
         // A tree, whatever the key: one of maps alone would turn exact shadows into one.
         std::vector<KeySpec> of_trees = shadow_table().keys;
-        std::erase_if(of_trees, [](const KeySpec& key) { return key.name == "samples"; });
+        std::erase_if(of_trees, [](const KeySpec& key) {
+            return key.name == "samples" || key.name == "day_file" || key.name == "max_sun_deg";
+        });
         expect_noticed(scene + "shadow = {resolution = \"auto\"}\n", "light.l.shadow.", of_trees,
                        {"max_magnification"});
     }
+}
+
+TEST(Kept, ShadowsOfADayNoticeItsKeys) {
+    const std::string scene =
+        start + "[[light]]\nid = \"l\"\ntype = \"directional\"\nazimuth_deg = 90\nelevation_deg = 20\n" +
+        "shadow = {day_file = \"a.far\"}\n";
+    const Made before = made_for(scene);
+    EXPECT_EQ(before.light.shadow.method, ShadowMethod::day);
+    EXPECT_EQ(before.light.shadow.day_file, "a.far");
+    EXPECT_FALSE(is_kept(before, made_for(scene, {"light.l.shadow.day_file=\"b.far\""})));
+    EXPECT_FALSE(is_kept(before, made_for(scene, {"light.l.shadow.max_sun_deg=0.5"})));
+    EXPECT_FALSE(is_kept(before, made_for(scene, {"light.l.azimuth_deg=91"})));
+    EXPECT_TRUE(is_kept(before, made_for(scene, {"light.l.irradiance_w_m2=7"})));
 }
 
 TEST(Kept, FilesOfTreesNoticeEveryKeyOfTheirLight) {
@@ -87,7 +102,7 @@ TEST(Kept, FilesOfTreesNoticeEveryKeyOfTheirLight) {
                               "intensity_w_sr = 1\nshadow = {resolution = 1024, scope = \"full\"}\n";
     // What decides about pictures, not about trees; and keys that a tree of a given resolution has not.
     const std::set<std::string> idle = {"normal_offset_texels", "scope", "filter", "cache"},
-                                none = {"method", "samples", "max_magnification"};
+                                none = {"method", "samples", "max_magnification", "day_file", "max_sun_deg"};
     const auto key_of = [](const SceneLight& light) {
         const TreeFileKey key = shadow_key(TreeFileKey{1, 2}, light,
                                            fitted_shadow_views(light, Bounds{}, light.shadow.resolution));

@@ -44,6 +44,15 @@ TEST(ShadowMethods, OneFrameIsExact) {
     EXPECT_EQ(p.reason, "one frame");
 }
 
+TEST(ShadowMethods, AFileOfADayIsAskedForOneFrameAndForMany) {
+    for (const char* frames : {"", "[frames]\nrange = \"1-24\"", "[frames]\nrange = \"1-100\""}) {
+        const Planned p = planned("shadow = {day_file = \"d.far\"}", frames);
+        EXPECT_EQ(p.method, "day");
+        EXPECT_EQ(p.reason, "'day_file' has the suns of a day");
+    }
+    EXPECT_EQ(planned("shadow = {day_file = \"d.far\", method = \"day\"}").reason, "as asked");
+}
+
 // Where a picture looks single texels up they may be small; whole trees, soft filters and large pictures pay
 // for it.
 TEST(ShadowMethods, TreesOfOnePictureHaveSmallTexels) {
