@@ -3,23 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+#include <string>
 #include <vector>
 
-#include "app/cli/flags.h"
 #include "app/cli/messages.h"
 #include "app/cli/scene_flags.h"
 #include "app/cli/signals.h"
 #include "app/cli/targets.h"
+#include "app/cli/terrain_day.h"
+#include "app/cli/terrain_shadows.h"
 #include "app/cli/terrain_suns.h"
 #include "app/frame/sun_hours_text.h"
-#include "app/report/output_plan.h"
 #include "app/report/sun_hours_picture.h"
 #include "app/scene/build.h"
 #include "app/scene/terrain.h"
 #include "app/scene/validate.h"
+#include "core/count_text.h"
 #include "core/error.h"
 #include "core/image_io.h"
+#include "hierarchy/terrain/day_light.h"
 #include "hierarchy/terrain/far_file.h"
 
 namespace obscura {
@@ -56,28 +58,16 @@ void check_memory(const HeightField& field, const Limits& limits, const std::str
     }
 }
 
-/// What the file holds: these far shadows; these, but altered since; or anything else.
-enum class FarFileState { other, damaged, made };
-
-FarFileState state_of(const std::filesystem::path& path, const TreeFileKey& key) {
-    std::error_code error;
-    if (path.empty() || !std::filesystem::exists(path, error)) return FarFileState::other;
-    try {
-        const FarFile file = read_far_file(path);
-        if (file.key != key) return FarFileState::other;
-        return is_intact(file.day) ? FarFileState::made : FarFileState::damaged;
-    } catch (const InputError&) {
-        return FarFileState::other;
+std::string far_text(const FarDay& day, const FarPlan& plan, const std::filesystem::path& path) {
+    std::size_t suns = 0, units = 0;
+    for (const int group : plan.groups) {
+        suns += static_cast<std::size_t>(day.suns_of(group).count);
+        units += static_cast<std::size_t>(day.tiles());
     }
-}
-
-std::string far_text(const FarDay& day, const std::filesystem::path& path) {
-    const double bits = static_cast<double>(day.bytes.size() + day.units.size() * sizeof(FarUnit)) * 8;
-    const double samples =
-        static_cast<double>(day.grid.width) * day.grid.height * static_cast<double>(day.suns.size());
+    const double bits = static_cast<double>(day.bytes.size() + units * sizeof(FarUnit)) * 8;
+    const double samples = static_cast<double>(day.grid.width) * day.grid.height * static_cast<double>(suns);
     return fmt::format("far shadows of {} suns in {} units: {} bytes, {:.5f} bits a sample and map: {}\n",
-                       day.suns.size(), day.units.size(), day.bytes.size(),
-                       samples > 0 ? bits / samples : 0.0, path.string());
+                       suns, units, day.bytes.size(), samples > 0 ? bits / samples : 0.0, path.string());
 }
 
 /// What is done for every sun, as a share of all.
@@ -99,68 +89,128 @@ void write_hours(const Image<float>& hours, const Light& sun, const TerrainDayOp
                           existing);
 }
 
+/// Lowers ground as the earth curves away, where that is asked for.
+HeightField ground_of(HeightField field, const TerrainDayOptions& options, const std::string& scene) {
+    if (!options.curvature) return field;
+    const double east_m = 0.5 * (field.width() - 1) * field.cell_x_m,
+                 north_m = 0.5 * (field.height() - 1) * field.cell_y_m;
+    const double drop_m = earth_drop_m(east_m * east_m + north_m * north_m, options.refraction);
+    if (metres_of(height_range(field).least_q16) - drop_m < -largest_height_m) {
+        throw LimitError(
+            fmt::format("{}: --curvature: the ground is so wide that its corners would lie {:.0f} m lower, "
+                        "below {} m",
+                        scene, drop_m, -largest_height_m));
+    }
+    return curved(field, options.refraction);
+}
+
+/// Refuses what would be refused when it is written, before anything is read or made.
+void check_places(const TerrainDayOptions& options, const std::vector<ShadowPicture>& shadows,
+                  FarFileState state, const ReadFiles& read) {
+    // What is there already, or is to be completed, may exist; but no other result may go to it.
+    std::vector<std::filesystem::path> all, fresh;
+    const auto add = [&](const std::filesystem::path& path, bool is_fresh) {
+        if (path.empty()) return;
+        all.push_back(path);
+        if (is_fresh) fresh.push_back(path);
+    };
+    for (const auto* path : {&options.hours, &options.picture, &options.list})
+        add(*path, true);
+    for (const ShadowPicture& picture : shadows)
+        add(picture.file, true);
+    add(options.far_shadows, state == FarFileState::other);
+    check_targets(all, {}, Existing::replace, read);
+    check_targets(fresh, {}, options.run.existing(), read);
+}
+
+/// The shares of all the work that a run's three kinds of results take.
+struct WorkShares {
+    double far_end = 0, hours_end = 0;
+};
+WorkShares work_shares(bool far, bool hours, bool pictures) {
+    const double of_far = far ? 4 : 0, of_hours = hours ? 1 : 0, of_pictures = pictures ? 0.5 : 0;
+    const double all = std::max(of_far + of_hours + of_pictures, 0.5);
+    return {of_far / all, (of_far + of_hours) / all};
+}
+
+void write_shadows(const HeightField& field, const std::vector<ShadowPicture>& pictures,
+                   const TerrainDayOptions& options, const FarDayWatch& watch) {
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const Image<float> shares =
+            lit_shares(field, pictures[i].sun, options.angular_diameter_deg / 2, options.run.exec);
+        stop_if_requested();
+        write_file_atomically(pictures[i].file, shadow_png(shares), options.run.existing());
+        watch.progress(static_cast<int>(i + 1));
+    }
+}
+
 }  // namespace
 
 int terrain_command(const TerrainDayOptions& options) {
     const SceneRun& run = options.run;
     const bool wants_hours = !options.hours.empty() || !options.picture.empty();
-    if (!wants_hours && options.far_shadows.empty() && options.list.empty())
+    const bool wants_far = !options.far_shadows.empty();
+    if (!wants_hours && !wants_far && options.list.empty() && options.shadows.empty())
         throw UsageError(
-            "nothing to make: give -o, --hours, --picture or --list (see 'obscura terrain --help')");
+            "nothing to make: give -o, --hours, --picture, --shadows or --list (see 'obscura terrain "
+            "--help')");
     const SceneDocument document = read_scene(run.scene, run.overrides);
     const FileAccess access = recording_access(run, document);
     const SceneTable& table = chosen_terrain(document, options.terrain);
     const Light sun = sun_of(document);
+    // A folder that is not there or may not be written to is told before ground is read.
+    check_places(options, {}, FarFileState::incomplete, *access.read);
     const Limits limits = limits_of(document);
     const std::string& named = text(table, "file");
-    const HeightField field = load_elevation(resolve_input(access, named), named, access, limits,
-                                             terrain_options_of(table, limits).elevation)
-                                  .field;
+    const HeightField field = ground_of(load_elevation(resolve_input(access, named), named, access, limits,
+                                                       terrain_options_of(table, limits).elevation)
+                                            .field,
+                                        options, document.sources[0]);
     check_memory(field, limits, document.sources[0]);
     const std::vector<FarSun> suns =
         suns_of_day(field, *sun.path, static_cast<int>(options.suns), options.least_elevation_deg);
     if (suns.empty() && !run.quiet) say_note(no_sun_text(sun.id, *sun.path));
-    const FarDayParams params{static_cast<int>(options.threshold), static_cast<int>(options.tile_side)};
-    const TreeFileKey key{far_day_hash(field, suns, params), far_file_kind};
-
-    const FarFileState state = state_of(options.far_shadows, key);
-    const bool made = state == FarFileState::made;
-    // What is there already, or is to be repaired, may exist; but no other result may go to it.
-    std::vector<std::filesystem::path> all, fresh;
-    for (const auto* path : {&options.hours, &options.picture, &options.list, &options.far_shadows}) {
-        if (path->empty()) continue;
-        all.push_back(*path);
-        if (path != &options.far_shadows || state == FarFileState::other) fresh.push_back(*path);
+    std::vector<ShadowPicture> pictures;
+    if (!options.shadows.empty()) {
+        pictures = shadow_pictures(field, *sun.path, options.shadow_hours, options.least_elevation_deg,
+                                   options.shadows);
     }
-    check_targets(all, {}, Existing::replace, *access.read);
-    check_targets(fresh, {}, run.existing(), *access.read);
+    const FarDayParams params{static_cast<int>(options.threshold), static_cast<int>(options.tile_side)};
+    FarPlan plan;
+    if (wants_far) {
+        plan = plan_far_file(options, empty_far_day(field, suns, params),
+                             {far_day_hash(field, suns, params), far_file_kind});
+    }
+    check_places(options, pictures, plan.state, *access.read);
     const auto tell = [&](const std::string& words) {
         if (!run.quiet) print(words);
     };
-    if (state == FarFileState::damaged && !run.quiet)
-        say_note(fmt::format("{} is damaged and is made again", options.far_shadows.string()));
+    if (plan.state == FarFileState::incomplete && !run.quiet)
+        say_note(fmt::format("{} is incomplete or damaged, and what is missing is made",
+                             options.far_shadows.string()));
 
     if (!options.list.empty())
         write_file_atomically(options.list, sun_list_text(*sun.path, suns), run.existing());
     set_signal_policy(OnSignal::ask_to_stop);
     Progress progress(stderr, Progress::style_for(stderr, run.quiet));
-    if (made) {
+    const bool makes_far = wants_far && plan.state != FarFileState::made;
+    const WorkShares shares = work_shares(makes_far, wants_hours, !pictures.empty());
+    if (makes_far) {
+        std::size_t count = 0;
+        for (const int group : plan.groups)
+            count += static_cast<std::size_t>(plan.known.suns_of(group).count);
+        const FarDay day =
+            make_far_file(options, field, plan, watch_of(progress, "far shadows", count, 0, shares.far_end));
+        progress.clear();
+        tell(far_text(day, plan, options.far_shadows));
+    } else if (wants_far) {
         tell(fmt::format("far shadows of {} suns are there already: {}\n", suns.size(),
                          options.far_shadows.string()));
-    } else if (!options.far_shadows.empty()) {
-        const FarDay day =
-            make_far_day(field, suns, params, run.exec,
-                         watch_of(progress, "far shadows", suns.size(), 0, wants_hours ? 0.8 : 1));
-        stop_if_requested();
-        write_far_file(options.far_shadows, day, key,
-                       state == FarFileState::damaged ? Existing::replace : run.existing());
-        progress.clear();
-        tell(far_text(day, options.far_shadows));
     }
     if (wants_hours) {
-        const double from = made || options.far_shadows.empty() ? 0 : 0.8;
         const Image<float> hours =
-            lit_hours(field, suns, run.exec, watch_of(progress, "hours of sun", suns.size(), from, 1));
+            lit_hours(field, suns, options.angular_diameter_deg / 2, run.exec,
+                      watch_of(progress, "hours of sun", suns.size(), shares.far_end, shares.hours_end));
         stop_if_requested();
         write_hours(hours, sun, options);
         progress.clear();
@@ -168,59 +218,15 @@ int terrain_command(const TerrainDayOptions& options) {
         tell(fmt::format("hours of sun: {:.2f} to {:.2f} h, of suns of {:g} degrees and higher\n", *least,
                          *most, options.least_elevation_deg));
     }
-    if (wants_hours || !made) progress.finish();
+    if (!pictures.empty()) {
+        write_shadows(field, pictures, options,
+                      watch_of(progress, "shadows", pictures.size(), shares.hours_end, 1));
+        progress.clear();
+        tell(fmt::format("shadows: {} to {}\n", count_text(pictures.size(), "picture"),
+                         pictures.front().file.string()));
+    }
+    if (wants_hours || makes_far || !pictures.empty()) progress.finish();
     return 0;
-}
-
-int run_terrain(const Arguments& arguments) {
-    Flags flags("terrain [options] SCENE",
-                "The shadows of a day over a scene's [[terrain]], exact at every sample of its elevation "
-                "model, along the "
-                "way of the scene's sun.");
-    RunFlags run;
-    TerrainDayOptions options;
-    std::string far_shadows, hours, picture, list;
-    flags.positional("SCENE", run.scene.scene, "The scene file (TOML).");
-    flags.group("Scene");
-    flags.list("-D,--define", "KEY=VALUE", run.scene.overrides,
-               "Replace a value of the scene (see 'obscura render --help'); may be given again.");
-    flags.list("--allow-path", "DIR", run.scene.allowed,
-               "A folder besides the scene's own that its files may lie in; may be given again.");
-    flags.text("--terrain", "ID", options.terrain, "Which [[terrain]].", "the first");
-    flags.group("Day");
-    flags.whole("--suns", "N", options.suns, 1, 4096,
-                "Suns over the day, closer together where shadows move fast.", "158");
-    flags.number("--least-elevation", "DEG", options.least_elevation_deg, 0.01, 89,
-                 "None stands lower, and no hours count in which it does.", "0.5");
-    flags.whole("--threshold", "LINES", options.threshold, 1, 1 << 20,
-                "Far shadows have casters at least so many lines of the grid away.", "16");
-    flags.whole("--tile", "SAMPLES", options.tile_side, 64, largest_far_tile_side,
-                "Side of a tile, a multiple of 64.", "512");
-    flags.group("Output");
-    flags.text("-o,--output", "FILE", far_shadows, "Far shadows of all suns, tiles of which decode alone.",
-               "none");
-    flags.text(
-        "--hours", "FILE", hours,
-        "Hours of sun of every sample (.pfm), without those in which the sun stands below --least-elevation.",
-        "none");
-    flags.text("--picture", "FILE", picture, "The same in colours, with a scale (.png).", "none");
-    flags.text("--list", "FILE", list, "When the suns stand where, and for how many hours (.csv).", "none");
-    flags.on_off("--overwrite", run.run.overwrite, "Replace files that exist; otherwise they are an error.");
-    flags.on_off("-q,--quiet", run.run.quiet, "Say nothing but errors.");
-    add_exec_flags(flags, run.threads, run.isa);
-    if (!flags.parse(arguments)) return 0;
-    if (options.tile_side % 64 != 0) throw UsageError("--tile must be a multiple of 64");
-    if (!hours.empty() && file_kind(hours) != FileKind::pfm)
-        throw UsageError(fmt::format("--hours: '{}' does not end in .pfm", hours));
-    if (!picture.empty() && file_kind(picture) != FileKind::png)
-        throw UsageError(fmt::format("--picture: '{}' does not end in .png", picture));
-    options.run = run.value();
-    options.run.exec = run.exec();
-    options.far_shadows = far_shadows;
-    options.hours = hours;
-    options.picture = picture;
-    options.list = list;
-    return terrain_command(options);
 }
 
 }  // namespace obscura

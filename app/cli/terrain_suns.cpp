@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/sun.h"
+
 namespace obscura {
 
 std::vector<FarSun> suns_of_day(const HeightField& field, SunPath path, int count,
@@ -16,6 +18,14 @@ std::vector<FarSun> suns_of_day(const HeightField& field, SunPath path, int coun
                         height_sun(field, s.azimuth_deg, s.elevation_deg)});
     }
     return suns;
+}
+
+FarSun sun_at_hour(const HeightField& field, const SunPath& path, double hour_h) {
+    const SunPosition sun = solar_position(path.year, path.month, path.day, hour_h - path.ahead_of_utc_h,
+                                           path.latitude_deg, path.longitude_deg);
+    FarSun s{hour_h, 0, sun.azimuth_deg, sun.apparent_elevation_deg, {}};
+    if (s.elevation_deg > 0) s.direction = height_sun(field, s.azimuth_deg, s.elevation_deg);
+    return s;
 }
 
 std::string time_text(const SunPath& path, double hour_h) {

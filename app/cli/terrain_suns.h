@@ -14,6 +14,9 @@ namespace obscura {
 std::vector<FarSun> suns_of_day(const HeightField& field, SunPath path, int count,
                                 double least_elevation_deg);
 
+/// The sun at a time of the path's day, standing for no hours.
+FarSun sun_at_hour(const HeightField& field, const SunPath& path, double hour_h);
+
 /// "2026-06-21T07:10:03.250+02:00": the clock of the path, as `time` of a scene's light takes it.
 std::string time_text(const SunPath& path, double hour_h);
 

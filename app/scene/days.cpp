@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "app/scene/build.h"
 #include "app/scene/validate.h"
 #include "core/error.h"
 #include "hierarchy/terrain/day_shadow.h"
 #include "hierarchy/terrain/far_file.h"
+#include "hierarchy/terrain/far_parts.h"
 #include "raster/heights/height_mesh.h"
 
 namespace obscura {
@@ -27,6 +29,12 @@ std::string grid_text(const FarGrid& grid) {
 
 SceneDay day_of(const std::filesystem::path& path, const std::string& named, const Scene& scene) {
     FarFile file = read_far_file(path);
+    if (const std::vector<int> missing = missing_groups(file.day); !missing.empty()) {
+        throw InputError(named,
+                         fmt::format("is of a part of a day, or is altered: {} are missing ('obscura terrain "
+                                     "--merge' joins parts)",
+                                     suns_text(file.day, missing)));
+    }
     for (std::size_t i = 0; i < scene.terrains.size(); ++i) {
         const SceneTerrain& terrain = scene.terrains[i];
         if (!is_of_ground(file.day, file.key.high, *terrain.field)) continue;

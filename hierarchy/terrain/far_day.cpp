@@ -61,38 +61,68 @@ FarDay::Suns FarDay::suns_of(int group) const {
     return {first, std::min(params.suns_per_unit, static_cast<int>(suns.size()) - first)};
 }
 
-FarDay make_far_day(const HeightField& field, std::span<const FarSun> suns, const FarDayParams& params,
-                    const Exec& exec, const FarDayWatch& watch) {
+FarDay empty_far_day(const HeightField& field, std::span<const FarSun> suns, const FarDayParams& params) {
     check_height_field(field);
     check_params(params);
     FarDay day;
     day.grid = {field.width(), field.height(), field.cell_x_m, field.cell_y_m, field.diagonal};
     day.params = params;
     day.suns.assign(suns.begin(), suns.end());
-    auto bytes = std::make_shared<std::vector<std::uint8_t>>();
+    day.units.assign(static_cast<std::size_t>(day.groups()) * static_cast<std::size_t>(day.tiles()),
+                     {0, 0, absent_unit_hash});
+    return day;
+}
+
+CodedGroup make_far_group(const HeightField& field, const FarDay& day, int group, const Exec& exec,
+                          const std::atomic<bool>* cancel) {
+    const FarDay::Suns part = day.suns_of(group);
+    std::vector<CodedMap> maps(static_cast<std::size_t>(part.count));
+    parallel_for(maps.size(), exec, [&](std::size_t i) {
+        if (stopped(cancel)) return;
+        const FarSun& sun = day.suns[static_cast<std::size_t>(part.first) + i];
+        maps[i] = coded_map(field, sun.direction, day.params.threshold);
+    });
+    if (stopped(cancel)) return {};
+    CodedGroup coded(static_cast<std::size_t>(day.tiles()));
+    parallel_for(coded.size(), exec, [&](std::size_t tile) {
+        const TileArea area = day.area(static_cast<int>(tile));
+        coded[tile] = encode_far_tile(tiles_of(maps, &CodedMap::far_bits, area),
+                                      tiles_of(maps, &CodedMap::cares, area));
+    });
+    return coded;
+}
+
+FarDay make_far_day(const HeightField& field, std::span<const FarSun> suns, const FarDayParams& params,
+                    const Exec& exec, const FarDayWatch& watch) {
+    FarDay day = empty_far_day(field, suns, params);
+    std::vector<CodedGroup> groups;
     for (int group = 0; group < day.groups(); ++group) {
-        const FarDay::Suns part = day.suns_of(group);
-        std::vector<CodedMap> maps(static_cast<std::size_t>(part.count));
-        parallel_for(maps.size(), exec, [&](std::size_t i) {
-            if (stopped(watch.cancel)) return;
-            maps[i] =
-                coded_map(field, suns[static_cast<std::size_t>(part.first) + i].direction, params.threshold);
-        });
-        if (stopped(watch.cancel)) {
+        groups.push_back(make_far_group(field, day, group, exec, watch.cancel));
+        if (groups.back().empty()) {
             day.units.clear();
             return day;
         }
-        std::vector<std::vector<std::uint8_t>> coded(static_cast<std::size_t>(day.tiles()));
-        parallel_for(coded.size(), exec, [&](std::size_t tile) {
-            const TileArea area = day.area(static_cast<int>(tile));
-            coded[tile] = encode_far_tile(tiles_of(maps, &CodedMap::far_bits, area),
-                                          tiles_of(maps, &CodedMap::cares, area));
-        });
-        for (const std::vector<std::uint8_t>& unit : coded) {
+        const FarDay::Suns part = day.suns_of(group);
+        if (watch.progress) watch.progress(part.first + part.count);
+    }
+    return with_groups(day, groups);
+}
+
+FarDay with_groups(const FarDay& like, std::span<const CodedGroup> groups) {
+    CHECK(static_cast<int>(groups.size()) == like.groups());
+    FarDay day = like;
+    day.units.clear();
+    auto bytes = std::make_shared<std::vector<std::uint8_t>>();
+    for (const CodedGroup& group : groups) {
+        CHECK(group.empty() || static_cast<int>(group.size()) == day.tiles());
+        for (const std::vector<std::uint8_t>& unit : group) {
             day.units.push_back({bytes->size(), unit.size(), bulk_hash(unit.data(), unit.size())});
             bytes->insert(bytes->end(), unit.begin(), unit.end());
         }
-        if (watch.progress) watch.progress(part.first + part.count);
+        if (group.empty()) {
+            day.units.insert(day.units.end(), static_cast<std::size_t>(day.tiles()),
+                             {bytes->size(), 0, absent_unit_hash});
+        }
     }
     day.bytes = *bytes;
     day.owner = bytes;
@@ -145,29 +175,6 @@ ShadowBits with_near_shadows(const HeightField& field, const FarSun& sun, const 
     for (std::uint64_t& word : lit.words)
         word = ~word;
     return united(map, near_shadows(field, sun.direction, threshold, lit));
-}
-
-Image<float> lit_hours(const HeightField& field, std::span<const FarSun> suns, const Exec& exec,
-                       const FarDayWatch& watch) {
-    constexpr std::size_t together = 16;
-    constexpr int whole[] = {0};
-    Image<float> hours(field.width(), field.height());
-    for (std::size_t first = 0; first < suns.size() && !stopped(watch.cancel); first += together) {
-        const auto part = suns.subspan(first, std::min(together, suns.size() - first));
-        std::vector<ShadowBits> dark(part.size());
-        parallel_for(part.size(), exec,
-                     [&](std::size_t i) { dark[i] = sweep_shadows(field, part[i].direction, whole)[0]; });
-        parallel_for(static_cast<std::size_t>(field.height()), exec, [&](std::size_t row) {
-            const int y = static_cast<int>(row);
-            for (std::size_t i = 0; i < part.size(); ++i) {
-                const auto more = static_cast<float>(part[i].hours);
-                for (int x = 0; x < field.width(); ++x)
-                    hours(x, y) += dark[i](x, y) ? 0.0f : more;
-            }
-        });
-        if (watch.progress) watch.progress(static_cast<int>(first + part.size()));
-    }
-    return hours;
 }
 
 std::uint64_t far_day_hash(const HeightField& field, std::span<const FarSun> suns,

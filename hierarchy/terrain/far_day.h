@@ -36,7 +36,7 @@ constexpr int largest_far_tile_side = 8192;
 
 struct FarDayParams {
     int threshold = 16;      ///< lines; >= 1
-    int tile_side = 512;     ///< samples, a multiple of 64 up to 8192 up to 8192
+    int tile_side = 512;     ///< samples, a multiple of 64 up to 8192
     int suns_per_unit = 16;  ///< maps that decode together, each by the one before; 1 to 64
     friend bool operator==(const FarDayParams&, const FarDayParams&) = default;
 };
@@ -55,6 +55,9 @@ struct FarUnit {
     std::uint64_t hash = 0;  ///< bulk_hash of them
     friend bool operator==(const FarUnit&, const FarUnit&) = default;
 };
+
+/// Of units that a part of a day has not. No bytes have another hash.
+constexpr std::uint64_t absent_unit_hash = 0;
 
 /// Immutable. Units are numbered by groups of suns, and within a group by tiles in rows.
 struct FarDay {
@@ -91,6 +94,19 @@ struct FarDayWatch {
 FarDay make_far_day(const HeightField& field, std::span<const FarSun> suns, const FarDayParams& params,
                     const Exec& exec, const FarDayWatch& watch = {});
 
+/// The day that has all this but units.
+FarDay empty_far_day(const HeightField& field, std::span<const FarSun> suns, const FarDayParams& params);
+
+/// The bytes of a group's units by tile; none when it is not there.
+using CodedGroup = std::vector<std::vector<std::uint8_t>>;
+
+/// One group of `day`, whose own units are not asked; none when cancelled.
+CodedGroup make_far_group(const HeightField& field, const FarDay& day, int group, const Exec& exec,
+                          const std::atomic<bool>* cancel = nullptr);
+
+/// The day `like`, with these units in place of its own.
+FarDay with_groups(const FarDay& like, std::span<const CodedGroup> groups);
+
 /// Whether the bytes of all units are those that were written, by their checksums; nothing is decoded.
 bool is_intact(const FarDay& day);
 
@@ -107,10 +123,6 @@ std::vector<ShadowBits> far_maps(const FarDay& day, int group, const Exec& exec,
 /// `field`.
 ShadowBits with_near_shadows(const HeightField& field, const FarSun& sun, const ShadowBits& map,
                              int threshold);
-
-/// Hours of sun of every sample: the sum of FarSun::hours of those that reach it, in their order.
-Image<float> lit_hours(const HeightField& field, std::span<const FarSun> suns, const Exec& exec,
-                       const FarDayWatch& watch = {});
 
 /// A hash of all that make_far_day() makes its result from, for the key of its file.
 std::uint64_t far_day_hash(const HeightField& field, std::span<const FarSun> suns,

@@ -50,15 +50,18 @@ HeightField mirrored(const HeightField& field) {
     return out;
 }
 
-HeightField curved(const HeightField& field, double refraction) {
+double earth_drop_m(double distance_squared_m2, double refraction) {
     constexpr double earth_radius_m = 6'371'000;
+    return distance_squared_m2 * (1 - refraction) / (2 * earth_radius_m);
+}
+
+HeightField curved(const HeightField& field, double refraction) {
     HeightField out = field;
     for (int y = 0; y < field.height(); ++y) {
         const double north_m = (y - 0.5 * (field.height() - 1)) * field.cell_y_m;
         for (int x = 0; x < field.width(); ++x) {
             const double east_m = (x - 0.5 * (field.width() - 1)) * field.cell_x_m;
-            const double drop_m =
-                (east_m * east_m + north_m * north_m) * (1 - refraction) / (2 * earth_radius_m);
+            const double drop_m = earth_drop_m(east_m * east_m + north_m * north_m, refraction);
             out.height_q16(x, y) = height_q16_of(metres_of(field.height_q16(x, y)) - drop_m);
         }
     }

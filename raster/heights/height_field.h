@@ -50,6 +50,10 @@ HeightRange height_range(const HeightField& field);
 HeightField turned(const HeightField& field);
 HeightField mirrored(const HeightField& field);
 
+/// How much lower ground lies, as light sees it, at a distance of which the square is given: r^2 (1 -
+/// refraction) / 2R, R = 6371 km, in metres.
+double earth_drop_m(double distance_squared_m2, double refraction);
+
 /// The same ground as light sees it over the round earth: lowered by r^2 (1 - refraction) / 2R, with r from
 /// the grid's middle, R = 6371 km and the coefficient of terrestrial refraction (0.13 by day), after which
 /// rays are straight. Heights are rounded once; from then on all is exact as for any field. A field that
