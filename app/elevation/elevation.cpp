@@ -31,8 +31,9 @@ RawGrid read_grid(std::string_view bytes, const std::string& name, const std::op
     if (ending == "asc") return read_esri_grid(bytes, name, options);
     if (ending == "hgt") return read_hgt_grid(bytes, name, options);
     if (ending == "png") return read_png_grid(bytes, name, options);
+    if (ending == "tif" || ending == "tiff") return read_geotiff_grid(bytes, name, options);
     throw InputError(
-        name, "an elevation model is a .pgm, .asc, .hgt or .png file, and the name says none of these");
+        name, "an elevation model is a .pgm, .asc, .hgt, .tif or .png file, and the name says none of these");
 }
 
 /// Lengths of a degree on the WGS84 ellipsoid (series as in the US NGA's tables).

@@ -44,6 +44,9 @@ struct ElevationModel {
 ///   latitude;
 ///          -9999 is a hole when no NODATA_value is given
 ///   .hgt   SRTM, 1 or 3 arc seconds, placed by its name (N37E014)
+///   .tif   GeoTIFF in strips or tiles, plain, LZW, deflate or PackBits, of 16 or 32 bits or floats; cells by
+///   its
+///          scale, in metres or feet, or in degrees at its own latitude; GDAL's value for holes. Also .tiff
 ///   .png   grey, 16 bits, with cell sizes and z_step_m given
 /// `name` stands in messages, its last part is the file's. Throws InputError with line or byte, LimitError
 /// before anything is allocated.

@@ -33,6 +33,7 @@ RawGrid read_pgm_grid(std::string_view bytes, const std::string& name,
                       const std::optional<std::string>& sidecar, const ElevationOptions& options);
 RawGrid read_esri_grid(std::string_view bytes, const std::string& name, const ElevationOptions& options);
 RawGrid read_hgt_grid(std::string_view bytes, const std::string& name, const ElevationOptions& options);
+RawGrid read_geotiff_grid(std::string_view bytes, const std::string& name, const ElevationOptions& options);
 RawGrid read_png_grid(std::string_view bytes, const std::string& name, const ElevationOptions& options);
 
 }  // namespace obscura

@@ -67,7 +67,7 @@ const TableSpec& terrain_table() {
         t.keys = {
             name_key("id", "Name, unique among terrains.").need(),
             file_key("file",
-                     "PGM with a JSON beside it, ESRI ASCII grid (.asc), SRTM (.hgt) or 16-bit PNG; row 0 is "
+                     "PGM with a JSON beside it, ESRI ASCII grid (.asc), SRTM (.hgt), GeoTIFF (.tif) or 16-bit PNG; row 0 is "
                      "in the north.")
                 .need(),
             name_key("material",

@@ -35,6 +35,7 @@ check_doors() {
     door tinyobjloader 'tiny_obj' 'app/models/mtl_text\.cpp|tests/fuzz/obj_peer\.cpp'
     door nlohmann-json 'nlohmann/' 'app/models/json_place\.h'
     door CLI11 'CLI/|CLI11' 'app/cli/flags\.cpp'
+    door libtiff 'tiff' 'app/elevation/read_geotiff\.cpp|tests/elevation/geotiff_test\.cpp'
     door GoogleTest 'g(test|mock)/' 'tests/.*'
     door 'Google Benchmark' 'benchmark/' 'bench/.*'
     door 'Embree, OSMesa' 'embree|GL/' 'bench/.*'
@@ -211,6 +212,8 @@ self_test() {
     plant doors app/models/mtl_text.cpp '#include <tiny_obj_loader.h>\n' clean
     plant doors app/cli/flags.h '#include <CLI/CLI.hpp>\n' found
     plant doors app/cli/render_command.cpp '#include <CLI/CLI.hpp>\n' found
+    plant doors app/elevation/elevation.cpp '#include <tiffio.h>\n' found
+    plant doors app/elevation/read_geotiff.cpp '#include <tiffio.h>\n' clean
     plant doors app/cli/flags.cpp '#include <CLI/CLI.hpp>\n' clean
     plant doors bench/stereo/peers.cpp '#include <cholmod.h>\n' found
     plant doors core/a.cpp '#include <immintrin.h>\n' found
