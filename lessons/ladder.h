@@ -36,7 +36,9 @@ constexpr int lesson_width = 1600, lesson_height = 1000;
     LESSON(lesson_22_sky, "The sky as many suns", "skylight as a sum of hard shadows, against a street's formula; why shade is blue") \
     LESSON(lesson_23_two_as_one, "Two subtrees as one", "differences repeat where depths do not; what was compared must not move any more") \
     LESSON(lesson_24_two_halves, "Structure and values", "a tree as a graph of what is alike and a list of depths that a lookup counts along") \
-    LESSON(lesson_25_an_edge_in_a_square, "An edge in a square", "a leaf that holds an edge and two planes does not mind how many texels it has")
+    LESSON(lesson_25_an_edge_in_a_square, "An edge in a square", "a leaf that holds an edge and two planes does not mind how many texels it has") \
+    LESSON(lesson_26_floating_horizon, "The horizon that never moves", "one profile that only grows shades a whole elevation model, line by line") \
+    LESSON(lesson_27_day_in_bits, "Near and far; a day in bits", "far shadows stored, near ones by rays, and each map coded by the one before it")
 // clang-format on
 
 #define OBSCURA_DECLARE_LESSON(draw, title, summary) Image<Rgb8> draw(const Exec& exec);

@@ -43,12 +43,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array golden{
-    "2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "6e230742d6859167", "a622c68fa6df36e5",
-    "463b045736f92eae", "bad0f240905ab4ef", "d69376fc7fe7dfe6", "bcc896970de58f40", "eae4629398c439fa",
-    "bb4e9518dd83ec37", "54a9d24dd16b3d21", "294c403290cf5138", "ee2c1eec80a45ce7", "fc6848fda193cc44",
-    "f264fb93641cd360", "f1ef4a390dcd3930", "990754ca6ce5e483", "4b00908a3d75a2e1", "65b0b6aa9d951712",
-    "da0c432aa660d88e", "a13142e5c4a4a3f1", "8574ac3f051bac1b", "938d031c10fcd9a5", "1148fdaa76ced024"};
+constexpr std::array golden{"2b80deeaca7a1f64", "c1edc3458efbb83c", "415f018f5fd1ffd8", "6e230742d6859167",
+                            "a622c68fa6df36e5", "463b045736f92eae", "bad0f240905ab4ef", "d69376fc7fe7dfe6",
+                            "bcc896970de58f40", "eae4629398c439fa", "bb4e9518dd83ec37", "54a9d24dd16b3d21",
+                            "294c403290cf5138", "ee2c1eec80a45ce7", "fc6848fda193cc44", "f264fb93641cd360",
+                            "f1ef4a390dcd3930", "990754ca6ce5e483", "4b00908a3d75a2e1", "65b0b6aa9d951712",
+                            "da0c432aa660d88e", "a13142e5c4a4a3f1", "8574ac3f051bac1b", "938d031c10fcd9a5",
+                            "1148fdaa76ced024", "8a967255e0cf58da", "c1aedc7ed143a769"};
 
 fs::path lessons_folder() {
     return fs::path(OBSCURA_SOURCE_DIR) / "lessons";
