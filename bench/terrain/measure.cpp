@@ -139,7 +139,7 @@ std::optional<TerrainWay> trace_some(const TerrainSubject& subject, const std::v
 }
 
 void measure_codes(const TerrainSubject& subject, const std::vector<FarSun>& suns, const Maps& maps,
-                   TerrainRow& row) {
+                   std::size_t step, TerrainRow& row) {
     FarDayParams params;
     params.threshold = subject.threshold;
     const FarDay day = make_far_day(subject.field, suns, params, {});
@@ -149,6 +149,7 @@ void measure_codes(const TerrainSubject& subject, const std::vector<FarSun>& sun
     for (int group = 0; group < day.groups(); ++group)
         far_maps(day, group, one_thread);
     row.decode_ns = ns_each(watch.seconds(), row.sweep.samples);
+    measure_lookups(subject, day, maps.whole, step, row);
 
     std::int64_t paper = 0;
     for (const ShadowBits& map : maps.far_bits) {
@@ -191,7 +192,7 @@ TerrainRow measure_terrain(const TerrainSubject& subject, const BenchOptions& op
     const Maps maps = sweep_day(subject, suns, row);
     row.march = march_some(subject, suns, maps, step);
     row.embree = trace_some(subject, suns, maps, step);
-    measure_codes(subject, suns, maps, row);
+    measure_codes(subject, suns, maps, step, row);
     return row;
 }
 

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "bench/harness/options.h"
+#include "hierarchy/terrain/far_day.h"
 #include "raster/heights/height_field.h"
+#include "raster/heights/shadow_bits.h"
 
 namespace obscura {
 
@@ -26,6 +28,14 @@ struct TerrainWay {
     std::int64_t differ = 0;
 };
 
+/// Rays of one kind from the ground: what each looks at, and takes.
+struct TerrainRays {
+    std::int64_t rays = 0;
+    double looks = 0, plain_looks = 0;  ///< cells and blocks of the pyramid; cells without it
+    double ns = 0, plain_ns = 0;
+    std::int64_t differ = 0;  ///< answers with and without
+};
+
 struct TerrainRow {
     std::string name;
     int width = 0, height = 0, threshold = 0, suns = 0;
@@ -34,10 +44,18 @@ struct TerrainRow {
         march;           ///< whole shadows; whole and far ones together; whole ones by rays in doubles
     double marched = 0;  ///< share of the sweep's samples that integers decided
     std::optional<TerrainWay> embree;  ///< with its hierarchy kept
+    TerrainRays near_rays;             ///< up to the threshold, where far bits do not answer
+    TerrainRays all_rays;              ///< to the border, what points above the ground ask
+    TerrainWay lookup;                 ///< a day's file asked at samples
     double far_bits = 0;               ///< per sample and map, index included
     std::optional<double> paper_bits;  ///< dictionary and LZMA
     double decode_ns = 0;              ///< per sample and map
 };
+
+/// Far bits and near rays of every 13th row under every step-th sun, as pictures ask them: at samples, of
+/// which `whole` has the shadows, and in the middles of cells.
+void measure_lookups(const TerrainSubject& subject, const FarDay& day, const std::vector<ShadowBits>& whole,
+                     std::size_t step, TerrainRow& row);
 
 std::vector<TerrainSubject> terrain_subjects(const BenchOptions& options);
 TerrainRow measure_terrain(const TerrainSubject& subject, const BenchOptions& options);

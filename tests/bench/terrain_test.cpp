@@ -33,10 +33,18 @@ TEST(TerrainBench, WaysAgreeAndOurBitsAreFewer) {
     }
     EXPECT_GT(row.far_bits, 0);
     EXPECT_TRUE(!row.paper_bits || *row.paper_bits > 2 * row.far_bits);
+    EXPECT_EQ(row.lookup.differ, 0);
+    EXPECT_GT(row.lookup.samples, 10'000);
+    for (const TerrainRays& rays : {row.near_rays, row.all_rays}) {
+        EXPECT_GT(rays.rays, 5'000);
+        EXPECT_EQ(rays.differ, 0);
+    }
+    // Short rays look at few cells anyway; long ones pass over most of theirs.
+    EXPECT_LT(row.all_rays.looks, 0.75 * row.all_rays.plain_looks);
     const std::string page = terrain_markdown({row});
     EXPECT_NE(page.find("| ridges | 257 x 257 |"), std::string::npos) << page;
     const std::string table = terrain_csv({row});
-    EXPECT_EQ(std::count(table.begin(), table.end(), ','), 2 * 18) << table;
+    EXPECT_EQ(std::count(table.begin(), table.end(), ','), 2 * 29) << table;
 }
 
 TEST(TerrainBench, RefusesUnknownModels) {

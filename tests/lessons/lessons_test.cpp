@@ -84,6 +84,8 @@ TEST(Lessons, HaveNumbersInOrderAndTheirOwnGoldenHash) {
 bool drawn_with(const LessonInfo& lesson, Isa isa) {
     const bool slow = std::getenv("OBSCURA_SLOW_TESTS") != nullptr;
     if ((lesson.number == 19 || lesson.number == 21) && !slow) return isa == Isa::sse2 || isa == best_isa();
+    // Nothing that lesson 27 calls has an instruction set.
+    if (lesson.number == 27) return isa == Isa::ref || isa == best_isa();
     if (lesson.number == 20) return isa == Isa::sse2 || isa == best_isa();
     return isa != Isa::ref || (lesson.number != 7 && lesson.number != 22);
 }
