@@ -27,8 +27,7 @@ void read_part(const std::string& text, TerrainDayOptions& options) {
 int run_terrain(const Arguments& arguments) {
     Flags flags("terrain [options] SCENE",
                 "The shadows of a day over a scene's [[terrain]], exact at every sample of its elevation "
-                "model, along the "
-                "way of the scene's sun.");
+                "model, along the way of the scene's sun.");
     RunFlags run;
     TerrainDayOptions options;
     std::string far_shadows, hours, picture, list, shadows, part;
@@ -51,8 +50,7 @@ int run_terrain(const Arguments& arguments) {
                 "Side of a tile of the maps, a multiple of 64.", "512");
     flags.number("--angular-diameter", "DEG", options.angular_diameter_deg, 0, 90,
                  "Of the sun's disc, for hours and pictures with penumbrae, by the horizon of every sample; "
-                 "0.53 is the "
-                 "sun's. Far shadows are of its middle.",
+                 "0.53 is the sun's. Far shadows are of its middle.",
                  "0, hard shadows");
     flags.on_off(
         "--curvature", options.curvature,
@@ -74,8 +72,7 @@ int run_terrain(const Arguments& arguments) {
         "none");
     flags.list("--shadow-time", "HH:MM", times,
                "With --shadows: at this time by the scene's clock; may be given again. Without it, at every "
-               "whole hour in "
-               "which the sun stands high enough.");
+               "whole hour in which the sun stands high enough.");
     flags.text("--list", "FILE", list, "When the suns stand where, and for how many hours (.csv).", "none");
     flags.group("Parts");
     flags.text(

@@ -123,6 +123,10 @@ void give_day_shadow(const ShadowWork& work, const LightShadow& shadow, const Ti
     const SceneDay& day = work.scene.days.at(shadow.light.light.id);
     light.day =
         day_light(*shadow.day, work.scene.terrains[day.terrain], shadow.light.light, work.scene.camera.eye);
+    if (tiles.mesh != &work.scene.mesh) {
+        light.day->object = tiles.mesh->object.data();
+        light.day->own_object = work.scene.mesh.object[light.day->first_triangle];
+    }
     if (!shadow.exact.empty())
         light.exact = exact_light(shadow.light.light, shadow.exact, *tiles.mesh, tiles.rays);
 }
@@ -130,8 +134,7 @@ void give_day_shadow(const ShadowWork& work, const LightShadow& shadow, const Ti
 std::string day_shadow_text(const LightShadowStats& s) {
     return fmt::format(
         "a day's far shadows, sun of {}, {:.2g} degrees off, {}{}; {} beside the ground; decode {:.3f} s, "
-        "lookups "
-        "{:.3f} s (all threads)\n",
+        "lookups {:.3f} s (all threads)\n",
         s.sun_text, s.sun_off_deg, size_text(static_cast<std::int64_t>(s.bytes)), s.kept ? ", kept" : "",
         count_text(s.casters, "triangle"), s.build.build_s, s.lookup_s);
 }

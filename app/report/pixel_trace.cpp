@@ -197,7 +197,8 @@ void PixelStory::tell_exact(const TileLight& light, int at) {
 void PixelStory::tell_day(const TileLight& light, int at) {
     const SurfaceBlock& s = work_->surface;
     std::fill_n(work_->visibility, block_samples, 1.0f);
-    const bool dark = day_dark(*light.day, s.triangle[at], {s.px[at], s.py[at], s.pz[at]});
+    const bool dark =
+        day_dark(*light.day, s.triangle[at], {s.px[at], s.py[at], s.pz[at]}, {s.gx[at], s.gy[at], s.gz[at]});
     darken_by_ground(*light.day, s, work_->visibility);
     say("      day: sun {} of {}; ground hides it: {}; visibility {:g}", light.day->sun->sun,
         light.day->sun->ground->day.suns.size(), dark ? "yes" : "no", work_->visibility[at]);

@@ -26,14 +26,13 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "picture's own samples; no texels, no filter, edges as sharp as the samples. map: a dense map. "
             "compressed: a tree of depth intervals, which gives a map's shadows at resolutions far beyond. "
             "stack: for a light with a size, an octree of the maps of many of its points, built once for all "
-            "frames in which the light stands still. "
-            "day: of a light far away, whose suns `obscura terrain` has made far shadows of ground for; rays "
-            "of a few "
-            "samples add near ones, and all that is not that ground casts exact shadows. "
-            "When not given: day where day_file is given; compressed where a key that only maps have is "
-            "given, or where the light "
-            "has no keyframes and there are 50 frames or more, which is when a tree pays; else exact. "
-            "`obscura check` tells which, and why."),
+            "frames in which the light stands still. day: of a light far away, whose suns `obscura terrain` "
+            "has made far shadows of ground for; rays of a few samples add near ones, and all that is not "
+            "that ground casts exact shadows. When not given: day where day_file is given; compressed where "
+            "a "
+            "key that only maps have is given, or where the light has no keyframes and there are 50 frames "
+            "or "
+            "more, which is when a tree pays; else exact. `obscura check` tells which, and why."),
         count_or_word_row(
             &ShadowSettings::resolution, "auto", auto_resolution,
             integer_key(
@@ -88,19 +87,20 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 .in({0.01, 100})),
         word_row_if_given(
             &ShadowSettings::code, shadow_code_words.all, "code",
-            "Compressed: how the tree is written. mh: by itself. The others, scope \"full\" alone, take "
-            "more off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds "
-            "to find; lookups read as many nodes. dag: structure and depths apart, all that is alike in "
-            "either written once; lookups read several times as much. facet: leaves hold planes and edges of "
-            "the mesh, so that it grows by half when the side is four times as long, where surfaces meet at "
-            "edges of the mesh alone, and three times where they pierce each other. auto: the smallest "
-            "that is as fast "
-            "as mh and is waited for once: mmh with scope \"full\", a cache, filter_px 1 and at least 6 "
+            "Compressed: how the tree is written. mh: by itself. The others, scope \"full\" alone, take more "
+            "off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds to "
+            "find; "
+            "lookups read as many nodes. dag: structure and depths apart, all that is alike in either "
+            "written "
+            "once; lookups read several times as much. facet: leaves hold planes and edges of the mesh, so "
+            "that it grows by half when the side is four times as long, where surfaces meet at edges of the "
+            "mesh alone, and three times where they pierce each other. auto: the smallest that is as fast as "
+            "mh and is waited for once: mmh with scope \"full\", a cache, filter_px 1 and at least 6 "
             "top_levels, else mh; `obscura check` tells which, and why. \"mh\" when not given."),
         word_row_if_given(&ShadowSettings::layout, tree_layout_words.all, "layout",
                           "Compressed, code \"mh\": how nodes are written. bytes16 is about a tenth smaller "
-                          "and slower to look up, "
-                          "words16 about as large as words24. \"words24\" when not given."),
+                          "and slower to look up, words16 about as large as words24. \"words24\" when not "
+                          "given."),
         key_row_if_given(
             &ShadowSettings::top_levels,
             integer_key(

@@ -67,8 +67,8 @@ const TableSpec& terrain_table() {
         t.keys = {
             name_key("id", "Name, unique among terrains.").need(),
             file_key("file",
-                     "PGM with a JSON beside it, ESRI ASCII grid (.asc), SRTM (.hgt), GeoTIFF (.tif) or 16-bit PNG; row 0 is "
-                     "in the north.")
+                     "PGM with a JSON beside it, ESRI ASCII grid (.asc), SRTM (.hgt), GeoTIFF (.tif) or "
+                     "16-bit PNG; row 0 is in the north.")
                 .need(),
             name_key("material",
                      "A [material.NAME], whose texture covers the model once; without it, colours by height "
