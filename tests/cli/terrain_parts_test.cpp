@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <sstream>
 #include <thread>
 
 #include "core/image_io.h"
@@ -159,6 +160,35 @@ TEST(TerrainParts, ShadowsAtHours) {
     EXPECT_EQ(day.run({"--curvature", "-o", "x.far"}).code, 2);
 }
 
+TEST(TerrainParts, FramesAtTheTimesOfTheListHaveTheirSuns) {
+    const Day day;
+    ASSERT_EQ(day.run({"-o", "day.far", "--list", "suns.csv"}).code, 0);
+    std::istringstream list(day.bytes("suns.csv"));
+    std::vector<std::string> times;
+    for (std::string line; std::getline(list, line);)
+        times.push_back(line.substr(0, line.find(',')));
+    ASSERT_EQ(times.size(), 51u);
+    EXPECT_EQ(times[0], "time");
+    const auto scene = [&](const char* range) {
+        return std::string(day_scene) +
+               "[shadow.sun]\nday_file = \"day.far\"\n[render]\nsize_px = [32, 24]\n[frames]\nrange = \"" +
+               range + "\"\n[[frames.light]]\nframe = 1\nid = \"sun\"\ntime = " + times[7] +
+               "\n[[frames.light]]\nframe = 3\nid = \"sun\"\ntime = " + times[30] + "\n";
+    };
+    day.folder.write("lapse.toml", scene("1-3x2"));
+    const Outcome check = run_in(day.folder, {"check", "lapse.toml"});
+    EXPECT_EQ(check.code, 0) << check.err;
+    EXPECT_NE(check.out.find("day: 'day_file' has the suns of a day"), std::string::npos) << check.out;
+    EXPECT_EQ(run_in(day.folder, {"render", "lapse.toml", "-o", "f_####.png"}).code, 0);
+    day.folder.write("lapse.toml", scene("1-3"));
+    const Outcome between = run_in(day.folder, {"render", "lapse.toml", "-o", "g_####.png"});
+    EXPECT_EQ(between.code, 3);
+    EXPECT_NE(between.err.find("frame 2: light 'sun' stands where no sun of 'day.far' does"),
+              std::string::npos)
+        << between.err;
+    EXPECT_FALSE(std::filesystem::exists(day.folder / "g_0001.png")) << "told before any frame";
+}
+
 TEST(TerrainParts, WhatCannotBeWrittenIsToldBeforeGroundIsRead) {
     const Day day;
     // No model is there to be read.
@@ -170,7 +200,12 @@ TEST(TerrainParts, WhatCannotBeWrittenIsToldBeforeGroundIsRead) {
         const Outcome outcome = day.run({flag, file});
         EXPECT_EQ(outcome.code, 5) << flag << outcome.err;
     }
+}
+
+TEST(TerrainParts, AFolderThatIsShutIsToldBeforeGroundIsRead) {
     if (::geteuid() == 0) GTEST_SKIP() << "root writes anywhere";
+    const Day day;
+    std::filesystem::remove(day.folder / "hill.asc");
     std::filesystem::create_directory(day.folder / "shut");
     std::filesystem::permissions(day.folder / "shut", std::filesystem::perms::owner_read);
     EXPECT_EQ(day.run({"-o", "shut/a.far"}).code, 5);
