@@ -31,14 +31,14 @@ stereo/solver    stereo
 stereo/thesis    stereo/solver
 app/models       core
 app/elevation    raster/heights
-app/scene        app/models app/elevation core/sky optics stereo stereo/thesis scenes
+app/scene        app/models app/elevation hierarchy/terrain core/sky optics stereo stereo/thesis scenes
 app/glare        app/scene
 app/frame        app/glare raster/exact hierarchy/stack
 app/pair         app/frame
 app/report       app/pair lessons/drawing
-app/cli          app/report hierarchy/terrain
+app/cli          app/report
 lessons/drawing  core
-lessons          core/sky optics stereo stereo/thesis scenes raster/exact hierarchy/stack lessons/drawing
+lessons          core/sky optics stereo stereo/thesis scenes raster/exact hierarchy/stack hierarchy/terrain lessons/drawing
 bench/embree     core
 bench/harness    app/scene
 bench/raster     app/frame bench/harness bench/embree
@@ -46,7 +46,7 @@ bench/peer_codes raster
 bench/shadows    app/frame hierarchy/stack bench/harness bench/embree bench/peer_codes
 bench/diffraction bench/harness
 bench/stereo     bench/harness
-bench/terrain    app/scene hierarchy/terrain bench/harness bench/embree
+bench/terrain    app/scene bench/harness bench/embree
 bench            bench/raster bench/shadows bench/diffraction bench/stereo bench/terrain
 END
 }
