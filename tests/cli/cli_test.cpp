@@ -93,6 +93,9 @@ std::string plausible_value(const std::string& kind) {
                                                                      {"SAMPLES", "64"},
                                                                      {"SOLVER", "fmg"},
                                                                      {"DECADES", "5"},
+                                                                     {"K", "0.13"},
+                                                                     {"HH:MM", "07:30"},
+                                                                     {"I/N", "1/2"},
                                                                      {"N", "1"}};
     for (const auto& [name, value] : values) {
         if (name == kind) return value;

@@ -181,7 +181,7 @@ std::vector<Bad> bad_files() {
     high.exaggeration = 1000;
     const std::string e = esri, j = json;
     return {
-        {"ending", "a.tif", "II*", {}, none, "a.tif: an elevation model is a .pgm"},
+        {"ending", "a.gif", "II*", {}, none, "a.gif: an elevation model is a .pgm"},
         {"no cells", "a.pgm", pgm, {}, none, "a.pgm: says nothing about the size of its cells"},
         {"cut", "a.pgm", pgm.substr(0, pgm.size() - 1), json, none, "a.pgm"},
         {"json end", "a.pgm", pgm, j.substr(0, j.size() - 2), none,

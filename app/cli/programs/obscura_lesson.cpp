@@ -20,8 +20,8 @@ namespace {
 std::string lesson_list() {
     std::string list = "Lessons:";
     for (const LessonInfo& lesson : lessons()) {
-        list += fmt::format("\n  {:<28}{}", fmt::format("{}  {}", lesson.number, lesson.title),
-                            wrapped(lesson.summary, 30, 100));
+        list += fmt::format("\n  {:<34}{}", fmt::format("{}  {}", lesson.number, lesson.title),
+                            wrapped(lesson.summary, 36, 100));
     }
     return list;
 }
