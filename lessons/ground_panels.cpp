@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/num.h"
+#include "raster/heights/height_near.h"
+#include "raster/heights/height_rays.h"
+#include "raster/heights/height_sweep.h"
 
 namespace obscura {
 
@@ -53,6 +57,60 @@ void draw_sun_arrow(Figure& f, const Box& map, double azimuth_deg) {
     const Vec2d way{-num::sin_deg(azimuth_deg), num::cos_deg(azimuth_deg)};
     const Vec2d middle = map.centre(), from = middle - way * (0.5 * map.w - 8);
     f.arrow(from, from + way * 56.0, {ink::orange, 4}, 15);
+}
+
+double rise_m(const HeightSun& sun) {
+    return static_cast<double>(sun.rise_q36) / static_cast<double>(std::int64_t{1} << rise_fraction_bits);
+}
+
+void draw_profile(Figure& f, const Plot& plot, const Profile& profile, const Pen& pen) {
+    std::vector<Vec2d> points;
+    for (std::size_t i = 0; i < profile.lines.size(); ++i) {
+        const ProfileLine& line = profile.lines[i];
+        const double to = i + 1 < profile.lines.size() ? profile.lines[i + 1].from : profile.end;
+        for (const double u : {line.from, to}) {
+            const double cells = u / static_cast<double>(cell_q20);
+            if (cells >= plot.x0 && cells <= plot.x1)
+                points.push_back(plot.at(cells, std::max(line.at(u), plot.y0)));
+        }
+    }
+    if (points.size() >= 2) f.polyline(points, pen);
+}
+
+double looks_of_rays(const HeightField& ground, const HeightSun& sun, const ShadowBits& dark) {
+    const HeightPyramid pyramid = height_pyramid(ground);
+    const HeightRays rays(ground, pyramid, sun);
+    HeightRayCounts counts;
+    for (int y = 0; y < ground.height(); ++y) {
+        for (int x = 0; x < ground.width(); ++x) {
+            const int cx = std::min(x, ground.width() - 2), cy = std::min(y, ground.height() - 2);
+            const bool ray = rays.ground_hidden({cx, cy, double(x - cx), double(y - cy)}, 1 << 20, &counts);
+            CHECK(ray == dark(x, y), "rays and the sweep agree at every sample");
+        }
+    }
+    return static_cast<double>(counts.cells + counts.blocks) / static_cast<double>(counts.rays);
+}
+
+std::vector<FarSun> day_of_suns(const HeightField& ground, int suns) {
+    std::vector<FarSun> day;
+    for (int i = 0; i < suns; ++i) {
+        const double t = (i + 0.5) / suns, even = 0.5 - 0.5 * num::cos_deg(180 * t);
+        FarSun s{5 + 14 * even, 14.0 / suns, 62 + 236 * even, 1 + 52 * num::sin_deg(180 * even), {}};
+        s.direction = height_sun(ground, s.azimuth_deg, s.elevation_deg);
+        day.push_back(s);
+    }
+    return day;
+}
+
+ShadowParts shadow_parts(const HeightField& ground, const HeightSun& sun, int threshold) {
+    const int thresholds[] = {0, threshold};
+    auto maps = sweep_shadows(ground, sun, thresholds);
+    ShadowBits all(ground.width(), ground.height());
+    for (int y = 0; y < ground.height(); ++y) {
+        for (int x = 0; x < ground.width(); ++x)
+            all.set(x, y);
+    }
+    return {maps[0], maps[1], eroded(near_shadows(ground, sun, threshold, all))};
 }
 
 }  // namespace obscura

@@ -29,10 +29,6 @@ namespace {
 constexpr int side = 110, shown_row = 42;
 constexpr int whole[] = {0};
 
-double rise_m(const HeightSun& sun) {
-    return static_cast<double>(sun.rise_q36) / static_cast<double>(std::int64_t{1} << rise_fraction_bits);
-}
-
 // Steps 1 and 2: one row of the ground under a sun in the east, as it is and raised.
 void draw_row(Figure& f, const HeightField& ground) {
     const HeightSun sun = height_sun(ground, 90, 16);
@@ -119,20 +115,6 @@ Stages stages_of(const SunView& view, double rise, int stop) {
     return s;
 }
 
-void draw_profile(Figure& f, const Plot& plot, const Profile& profile, const Pen& pen) {
-    std::vector<Vec2d> points;
-    for (std::size_t i = 0; i < profile.lines.size(); ++i) {
-        const ProfileLine& line = profile.lines[i];
-        const double to = i + 1 < profile.lines.size() ? profile.lines[i + 1].from : profile.end;
-        for (const double u : {line.from, to}) {
-            const double cells = u / static_cast<double>(cell_q20);
-            if (cells >= plot.x0 && cells <= plot.x1)
-                points.push_back(plot.at(cells, std::max(line.at(u), plot.y0)));
-        }
-    }
-    if (points.size() >= 2) f.polyline(points, pen);
-}
-
 // Steps 3 and 4: all rows at once under an oblique sun, and the map.
 void draw_sweep(Figure& f, const HeightField& ground) {
     constexpr int stop = 62;
@@ -182,23 +164,13 @@ void draw_sweep(Figure& f, const HeightField& ground) {
         f.line(Vec2d{map.x + 3 * (at.x + 0.5), map.y + 3 * (at.y + 0.5)},
                Vec2d{map.x + 3 * (next.x + 0.5), map.y + 3 * (next.y + 0.5)}, {ink::green, 1.5});
     }
-    const HeightPyramid pyramid = height_pyramid(ground);
-    const HeightRays rays(ground, pyramid, sun);
-    HeightRayCounts counts;
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            const int cx = std::min(x, side - 2), cy = std::min(y, side - 2);
-            const bool ray = rays.ground_hidden({cx, cy, double(x - cx), double(y - cy)}, 1 << 20, &counts);
-            CHECK(ray == dark(x, y), "rays and the sweep agree at every sample");
-        }
-    }
+    const double looks = looks_of_rays(ground, sun, dark);
     const double samples = side * side;
     f.paragraph({1375, 590},
                 fmt::format("{:.1f} pieces of horizon\nto each sample, met\nonce; a ray looks at\n{:.1f} "
                             "cells, or blocks\nof cells below it,\nand more where\nground is larger.\n\nThe "
                             "sweep's bits are\nthe rays' bits, all\n{} of them.",
-                            static_cast<double>(s.pieces) / samples,
-                            static_cast<double>(counts.cells + counts.blocks) / samples, side * side));
+                            static_cast<double>(s.pieces) / samples, looks, side * side));
 }
 
 }  // namespace

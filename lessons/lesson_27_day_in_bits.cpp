@@ -14,13 +14,11 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
-#include "core/num.h"
 #include "hierarchy/terrain/far_day.h"
 #include "lessons/drawing/figure.h"
 #include "lessons/drawing/panels.h"
 #include "lessons/ground_panels.h"
 #include "lessons/ladder.h"
-#include "raster/heights/height_near.h"
 #include "raster/heights/height_rays.h"
 #include "raster/heights/height_sweep.h"
 
@@ -29,41 +27,15 @@ namespace {
 
 constexpr int side = 192, suns = 48, shown = 8, threshold = 12;
 
-/// A day from east over south to west, closer together where the sun is low.
-std::vector<FarSun> day_of_suns(const HeightField& ground) {
-    std::vector<FarSun> day;
-    for (int i = 0; i < suns; ++i) {
-        const double t = (i + 0.5) / suns, even = 0.5 - 0.5 * num::cos_deg(180 * t);
-        FarSun s{5 + 14 * even, 14.0 / suns, 62 + 236 * even, 1 + 52 * num::sin_deg(180 * even), {}};
-        s.direction = height_sun(ground, s.azimuth_deg, s.elevation_deg);
-        day.push_back(s);
-    }
-    return day;
-}
-
 double bits_of(const FarDay& day) {
     return 8.0 * static_cast<double>(day.bytes.size()) / (static_cast<double>(side) * side * suns);
-}
-
-/// Whole, far and near shadows of one sun; and where the far bit is open.
-struct Parts {
-    ShadowBits whole, far_bits, open;
-};
-Parts parts_of(const HeightField& ground, const HeightSun& sun) {
-    const int thresholds[] = {0, threshold};
-    auto maps = sweep_shadows(ground, sun, thresholds);
-    ShadowBits all(side, side);
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x)
-            all.set(x, y);
-    }
-    return {maps[0], maps[1], eroded(near_shadows(ground, sun, threshold, all))};
 }
 
 // Steps 1 and 2: one sun's shadows in two parts, and what a coder has to say of it after the sun before.
 void draw_maps(Figure& f, const HeightField& ground, const std::vector<FarSun>& day, const Exec& exec) {
     const FarSun& sun = day[shown];
-    const Parts now = parts_of(ground, sun.direction), before = parts_of(ground, day[shown - 1].direction);
+    const ShadowParts now = shadow_parts(ground, sun.direction, threshold),
+                      before = shadow_parts(ground, day[shown - 1].direction, threshold);
     const Box left{40, 170, 384, 384}, right{470, 170, 384, 384};
     f.text({40, 150},
            fmt::format("1  Near and far of a sun {:.0f} degrees high, D = {} lines", sun.elevation_deg,
@@ -210,7 +182,7 @@ Image<Rgb8> lesson_27_day_in_bits(const Exec& exec) {
               "Far shadows are stored, near ones are found by short rays, and a map is coded by the one "
               "before it.");
     const HeightField ground = lesson_ground(side);
-    const std::vector<FarSun> day = day_of_suns(ground);
+    const std::vector<FarSun> day = day_of_suns(ground, suns);
     draw_maps(f, ground, day, exec);
     draw_trade(f, ground, day, exec);
     draw_day(f, ground, day, exec);
