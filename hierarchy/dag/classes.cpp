@@ -174,6 +174,7 @@ class Chooser {
     static bool holds(NumberRange range, std::uint32_t v) { return range.least <= v && v <= range.greatest; }
     static std::vector<NumberRange> ranges_of(const std::vector<Item>& items) {
         std::vector<NumberRange> ranges;
+        ranges.reserve(items.size());
         for (const Item& item : items)
             ranges.push_back(item.range);
         return ranges;
