@@ -28,11 +28,10 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             "stack: for a light with a size, an octree of the maps of many of its points, built once for all "
             "frames in which the light stands still. day: of a light far away, whose suns `obscura terrain` "
             "has made far shadows of ground for; rays of a few samples add near ones, and all that is not "
-            "that ground casts exact shadows. When not given: day where day_file is given; compressed where "
-            "a "
-            "key that only maps have is given, or where the light has no keyframes and there are 50 frames "
-            "or "
-            "more, which is when a tree pays; else exact. `obscura check` tells which, and why."),
+            "that ground casts exact shadows, hard ones all: those of the light's middle. When not given: "
+            "day where day_file is given; compressed where a key that only maps have is given, or where the "
+            "light has no keyframes and there are 50 frames or more, which is when a tree pays; else exact. "
+            "`obscura check` tells which, and why."),
         count_or_word_row(
             &ShadowSettings::resolution, "auto", auto_resolution,
             integer_key(
