@@ -169,9 +169,10 @@ bool HeightRays::hidden(const HeightPoint& point, HeightRayCounts* counts) const
     const double line = start.line - from, row = start.row + slope_ * from;
     if (!(line > 0) || row > view_.rows - 1) return false;
     if (from > 0) {
-        // It comes in over the border, or against the wall below it.
+        // It comes in over the border, or against the wall below it. Rounding may leave its row a hair before
+        // the first.
         const Cell cell{std::min(static_cast<int>(std::ceil(line)) - 1, view_.lines - 2),
-                        std::min(static_cast<int>(std::floor(row)), view_.rows - 2)};
+                        std::clamp(static_cast<int>(std::floor(row)), 0, view_.rows - 2)};
         const double border_m =
             surface_m(cell, std::clamp(line - cell.line, 0.0, 1.0), std::clamp(row - cell.row, 0.0, 1.0));
         if (border_m > start.height_m + rise_m_ * from + doubt_m_) return true;
