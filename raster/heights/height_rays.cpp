@@ -112,7 +112,7 @@ HeightRays::Answer HeightRays::march(const Start& s, double from, int end_line,
                                      HeightRayCounts& counts) const {
     ++counts.rays;
     Cell cell{std::min(static_cast<int>(std::ceil(s.line - from)) - 1, view_.lines - 2),
-              std::min(static_cast<int>(std::floor(s.row + slope_ * from)), view_.rows - 2)};
+              std::clamp(static_cast<int>(std::floor(s.row + slope_ * from)), 0, view_.rows - 2)};
     double t = from, highest_m = -never;
     int level = pyramid_.top();
     while (cell.line >= end_line && cell.row <= view_.rows - 2) {
