@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tiffio.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -56,7 +57,9 @@ double height_at(const Picture& p, int x, int y) {
 
 template <class T>
 void put_as(double value, std::vector<std::uint8_t>& to) {
-    const T v = static_cast<T>(value);
+    // What a type cannot hold is its nearest number.
+    const T v = static_cast<T>(std::clamp(value, static_cast<double>(std::numeric_limits<T>::lowest()),
+                                          static_cast<double>(std::numeric_limits<T>::max())));
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(&v);
     to.insert(to.end(), bytes, bytes + sizeof v);
 }
