@@ -118,6 +118,8 @@ void check_places(const TerrainDayOptions& options, const std::vector<ShadowPict
         add(*path, true);
     for (const ShadowPicture& picture : shadows)
         add(picture.file, true);
+    // Before the hours are known the pattern stands for them.
+    if (shadows.empty()) add(options.shadows, false);
     add(options.far_shadows, state == FarFileState::other);
     check_targets(all, {}, Existing::replace, read);
     check_targets(fresh, {}, options.run.existing(), read);

@@ -32,6 +32,8 @@ int run_terrain(const Arguments& arguments) {
     TerrainDayOptions options;
     std::string far_shadows, hours, picture, list, shadows, part;
     std::vector<std::string> times, merged;
+    // Below 0 where they are not given.
+    double angular_diameter_deg = -1, refraction = -1;
     flags.positional("SCENE", run.scene.scene, "The scene file (TOML).");
     flags.group("Scene");
     flags.list("-D,--define", "KEY=VALUE", run.scene.overrides,
@@ -48,7 +50,7 @@ int run_terrain(const Arguments& arguments) {
                 "Far shadows have casters at least so many lines of the grid away.", "16");
     flags.whole("--tile-side", "SAMPLES", options.tile_side, 64, largest_far_tile_side,
                 "Side of a tile of the maps, a multiple of 64.", "512");
-    flags.number("--angular-diameter", "DEG", options.angular_diameter_deg, 0, 90,
+    flags.number("--angular-diameter", "DEG", angular_diameter_deg, 0, 90,
                  "Of the sun's disc, for hours and pictures with penumbrae, by the horizon of every sample; "
                  "0.53 is the sun's. Far shadows are of its middle.",
                  "0, hard shadows");
@@ -56,7 +58,7 @@ int run_terrain(const Arguments& arguments) {
         "--curvature", options.curvature,
         "The ground curves away as the earth does, 8 cm in a kilometre and 785 m in a hundred. For hours and "
         "pictures: far shadows are of a scene's own ground.");
-    flags.number("--refraction", "K", options.refraction, 0, 0.99,
+    flags.number("--refraction", "K", refraction, 0, 0.99,
                  "With --curvature: of this share of it light bends along; 0.13 by day.", "0.13");
     flags.group("Output");
     flags.text("-o,--output", "FILE", far_shadows, "Far shadows of all suns, tiles of which decode alone.",
@@ -105,6 +107,12 @@ int run_terrain(const Arguments& arguments) {
     if (options.curvature && !far_shadows.empty())
         throw UsageError(
             "-o: far shadows are of the scene's own ground, so --curvature is for the other results");
+    if (refraction >= 0 && !options.curvature) throw UsageError("--refraction needs --curvature");
+    if ((options.curvature || angular_diameter_deg >= 0) && hours.empty() && picture.empty() &&
+        shadows.empty())
+        throw UsageError("--curvature and --angular-diameter are for --hours, --picture and --shadows");
+    if (refraction >= 0) options.refraction = refraction;
+    if (angular_diameter_deg >= 0) options.angular_diameter_deg = angular_diameter_deg;
     for (const std::string& time : times) {
         const std::optional<double> hour = parse_time_of_day(time);
         if (!hour) throw UsageError(fmt::format("--shadow-time: '{}' is not a time, as 07:30 is", time));

@@ -38,15 +38,13 @@ struct ElevationModel {
 
 /// The kinds of file, by the name's ending; refused with a word when there is none of these:
 ///   .pgm   samples of 8 or 16 bits, with a .json beside it (`sidecar`: cell_size_x_m, cell_size_y_m,
-///   elevation_scale_m,
-///          elevation_offset_m) or with cell sizes and z_step_m given
+///          elevation_scale_m, elevation_offset_m) or with cell sizes and z_step_m given
 ///   .asc   ESRI ASCII grid; cells below 1 at a place on the globe are refused without cell sizes or a
-///   latitude;
-///          -9999 is a hole when no NODATA_value is given
+///          latitude; -9999 is a hole when no NODATA_value is given
 ///   .hgt   SRTM, 1 or 3 arc seconds, placed by its name (N37E014)
-///   .tif   GeoTIFF in strips or tiles, plain, LZW, deflate or PackBits, of 16 or 32 bits or floats; cells by
-///   its
-///          scale, in metres or feet, or in degrees at its own latitude; GDAL's value for holes. Also .tiff
+///   .tif   GeoTIFF in strips or tiles, plain, LZW, deflate or PackBits, of 16 or 32 bits or floats; cells
+///          by its scale, in metres or feet, or in degrees at its own latitude; GDAL's value for holes.
+///          Also .tiff
 ///   .png   grey, 16 bits, with cell sizes and z_step_m given
 /// `name` stands in messages, its last part is the file's. Throws InputError with line or byte, LimitError
 /// before anything is allocated.

@@ -284,19 +284,18 @@ class Reader {
 
     /// The value that GDAL declares for samples without a height; NaN is always one.
     void clear_holes(Image<double>& samples) const {
-        const std::vector<char> text = values<char>(nodata_tag, TIFF_ASCII);
-        const char* begin = text.data();
-        const char* end = begin + (text.empty() ? 0 : std::strlen(std::string(begin, text.size()).c_str()));
-        while (begin != end && *begin == ' ')
-            ++begin;
-        while (begin != end && end[-1] == ' ')
-            --end;
-        if (begin == end) return;
+        const std::vector<char> letters = values<char>(nodata_tag, TIFF_ASCII);
+        std::string_view text(letters.data(), letters.size());
+        text = text.substr(0, text.find('\0'));
+        text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+        text = text.substr(0, text.find_last_not_of(' ') + 1);
+        if (text.empty()) return;
         double hole = 0;
-        const auto [rest, error] = std::from_chars(begin + (*begin == '+' ? 1 : 0), end, hole);
+        const char* end = text.data() + text.size();
+        const auto [rest, error] = std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, hole);
         if (error != std::errc{} || rest != end)
             fail(fmt::format("declares samples without a height by '{}', which is no number",
-                             std::string_view(begin, static_cast<std::size_t>(end - begin)).substr(0, 40)));
+                             text.substr(0, 40)));
         if (bits_ == 32 && format_ == SAMPLEFORMAT_IEEEFP)
             hole = static_cast<double>(static_cast<float>(hole));
         for (double& v : samples.pixels)

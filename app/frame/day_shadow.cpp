@@ -18,9 +18,11 @@
 namespace obscura {
 namespace {
 
+/// "07:12:33 (azimuth 72.1, ...)".
 std::string sun_text(const FarSun& sun) {
-    return fmt::format("{} (azimuth {:.4f}, elevation {:.4f} degrees)", clock_text(sun.hour_h),
-                       sun.azimuth_deg, sun.elevation_deg);
+    const auto seconds = static_cast<std::int64_t>(std::floor(sun.hour_h * 3600 + 0.5));
+    return fmt::format("{:02}:{:02}:{:02} (azimuth {:.4f}, elevation {:.4f} degrees)", seconds / 3600,
+                       seconds / 60 % 60, seconds % 60, sun.azimuth_deg, sun.elevation_deg);
 }
 
 const FarSun& sun_at(const FarDay& day, int sun) {
@@ -28,11 +30,6 @@ const FarSun& sun_at(const FarDay& day, int sun) {
 }
 
 }  // namespace
-
-std::string clock_text(double hour_h) {
-    const auto seconds = static_cast<std::int64_t>(std::floor(hour_h * 3600 + 0.5));
-    return fmt::format("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
-}
 
 void check_days(const Scene& scene,
                 const std::function<void(std::size_t light, const std::string& why)>& refuse) {

@@ -17,9 +17,6 @@ namespace obscura {
 void check_days(const Scene& scene,
                 const std::function<void(std::size_t light, const std::string& why)>& refuse);
 
-/// "07:12:33", of hours from midnight.
-std::string clock_text(double hour_h);
-
 /// The casters of `mesh` but for triangles [first, first + count), with the numbers that they have in it.
 struct OtherCasters {
     Mesh mesh;

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/frame/day_shadow.h"
 #include "app/frame/memory.h"
 #include "app/frame/shadow_cache.h"
 #include "app/frame/shadows.h"
@@ -43,14 +42,6 @@ void check_stacks(const SceneDocument& document, const Scene& scene) {
     });
 }
 
-/// Refuses days whose suns do not stand where the first frame's do.
-void check_first_suns(const SceneDocument& document, const Scene& scene) {
-    const std::vector<const SceneTable*> lights = subtables(document.root, "light");
-    check_days(scene, [&](std::size_t light, const std::string& why) {
-        fail_at(place_of(subtable(*lights[light], "shadow"), "day_file"), document.sources, why);
-    });
-}
-
 /// What `estimate` gives; a lens whose pattern is out of reach is told at the place that describes it.
 template <class Estimate>
 MemoryEstimate estimated(const SceneDocument& document, Estimate&& estimate) {
@@ -72,7 +63,6 @@ Scene load_scene(const SceneDocument& document, const FileAccess& access) {
     Scene scene = build_scene(document, access);
     check_caches(document, access);
     check_stacks(document, scene);
-    check_first_suns(document, scene);
     check_memory(estimated(document, [&] { return estimate_memory(scene); }), limits, document.sources[0]);
     return scene;
 }

@@ -261,7 +261,7 @@ std::uint32_t terrain_look(Builder& b, const std::string& id, const ElevationMod
 void add_terrain(Builder& b, const SceneTable& table) {
     TerrainOptions options = terrain_options_of(table, b.limits);
     options.elevation.as_mesh = true;
-    const auto model = load_named(b, table, "file", [&](const auto& path) {
+    auto model = load_named(b, table, "file", [&](const auto& path) {
         return load_elevation(path, text(table, "file"), b.access, b.limits, options.elevation);
     });
     const std::string whose = fmt::format("terrain '{}'", text(table, "id"));
@@ -273,7 +273,7 @@ void add_terrain(Builder& b, const SceneTable& table) {
                                                     ? b.materials.find(text(table, "material"))->second
                                                     : terrain_look(b, text(table, "id"), model));
     check_coordinates(b, table, "terrain", mesh);
-    keep_for_days(b.document, table, options.mesh.middle_m, model.field, mesh, b.scene);
+    keep_for_days(b.document, table, options.mesh.middle_m, std::move(model.field), mesh, b.scene);
     note_rounding(b, whose, nullptr, mesh);
     append_mesh(b.scene.mesh, mesh);
 }

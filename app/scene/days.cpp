@@ -56,18 +56,18 @@ SceneDay day_of(const std::filesystem::path& path, const std::string& named, con
 }  // namespace
 
 void keep_for_days(const SceneDocument& document, const SceneTable& terrain, Vec3d middle_m,
-                   const HeightField& field, const Mesh& mesh, Scene& scene) {
+                   HeightField field, const Mesh& mesh, Scene& scene) {
     const auto lights = subtables(document.root, "light");
     if (std::none_of(lights.begin(), lights.end(), [](const SceneTable* l) { return has_day(*l); })) return;
     SceneTerrain t;
     t.id = text(terrain, "id");
-    t.field = std::make_shared<const HeightField>(field);
     t.middle_m = middle_m;
     t.first_triangle = static_cast<std::uint32_t>(scene.mesh.triangles.size());
     t.ground_triangles =
         static_cast<std::uint32_t>(2 * (field.width() - 1) * std::int64_t{field.height() - 1});
     t.triangles = static_cast<std::uint32_t>(mesh.triangles.size());
     t.casts_shadow = boolean(terrain, "casts_shadow");
+    t.field = std::make_shared<const HeightField>(std::move(field));
     scene.terrains.push_back(std::move(t));
 }
 

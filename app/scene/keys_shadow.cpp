@@ -88,10 +88,9 @@ const KeyRows<ShadowSettings>& shadow_rows() {
             &ShadowSettings::code, shadow_code_words.all, "code",
             "Compressed: how the tree is written. mh: by itself. The others, scope \"full\" alone, take more "
             "off the bytes than they keep. mmh: parts of it that can be one are, which takes seconds to "
-            "find; "
-            "lookups read as many nodes. dag: structure and depths apart, all that is alike in either "
-            "written "
-            "once; lookups read several times as much. facet: leaves hold planes and edges of the mesh, so "
+            "find; lookups read as many nodes. dag: structure and depths apart, all that is alike in "
+            "either written once; lookups read several times as much. facet: leaves hold planes and edges of "
+            "the mesh, so "
             "that it grows by half when the side is four times as long, where surfaces meet at edges of the "
             "mesh alone, and three times where they pierce each other. auto: the smallest that is as fast as "
             "mh and is waited for once: mmh with scope \"full\", a cache, filter_px 1 and at least 6 "
@@ -118,8 +117,7 @@ const KeyRows<ShadowSettings>& shadow_rows() {
                 "max_sun_deg",
                 "Day: how far the light may stand from the nearest sun of the file, whose shadows are taken; "
                 "further off is an error. `obscura terrain --list` tells when the suns stand where. 0.01 "
-                "when "
-                "not given.")
+                "when not given.")
                 .in({1e-6, 10})),
         key_row_if_given(&ShadowSettings::cache, shadow_cache_key()),
     };

@@ -33,12 +33,9 @@ std::string rays_text(const TerrainRays& rays) {
 std::string lookups_markdown(const std::vector<TerrainRow>& rows) {
     std::string text =
         "\n## Lookups\n\nEvery 13th row, every 16th sun, one thread. Lookup: far bits and a near ray at a "
-        "sample, "
-        "nanoseconds; differ: from the sweep. Rays start in the middles of cells whose far bit is not set, "
-        "and go to the "
-        "threshold (near) or to the border (all); looks: cells and blocks of the pyramid of greatest heights "
-        "that a ray "
-        "looks at, plain: cells without one.\n\n"
+        "sample, nanoseconds; differ: from the sweep. Rays start in the middles of cells whose far bit is "
+        "not set, and go to the threshold (near) or to the border (all); looks: cells and blocks of the "
+        "pyramid of greatest heights that a ray looks at, plain: cells without one.\n\n"
         "| model | lookup, ns | differ | near looks | plain | ns | plain | all looks | plain | ns | plain |\n"
         "|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const TerrainRow& r : rows) {

@@ -12,6 +12,7 @@
 
 #include "app/elevation/elevation.h"
 #include "app/frame/day_shadow.h"
+#include "app/frame/frame_checks.h"
 #include "app/frame/load_scene.h"
 #include "app/scene/build.h"
 #include "core/error.h"
@@ -71,7 +72,9 @@ class DayFrame : public testing::Test {
     template <class Error = InputError>
     std::string error(const std::string& text) const {
         try {
-            load(text);
+            const SceneDocument document = read_scene_text(text, "s.toml", {});
+            const Scene scene = load_scene(document, FileAccess{folder, {}});
+            FrameChecks(document, {}).check(scene, 1);
         } catch (const Error& e) {
             return e.what();
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "raster/heights/height_march.h"
 #include "raster/heights/height_rays.h"
@@ -19,21 +20,35 @@ GroundPlace at_sample(const HeightField& f, int x, int y, int which) {
     return {cx, cy, double(x - cx), double(y - cy)};
 }
 
+/// Ground and a sun as drawn from a seed; rays where the ground has cells.
+struct DrawnRays {
+    drawn::Random random;
+    HeightField f = drawn::heights(random);
+    HeightSun sun = drawn::sun(random, f);
+    HeightPyramid pyramid;
+    std::optional<HeightRays> rays;
+
+    explicit DrawnRays(std::uint64_t seed) : random(seed) {
+        if (f.width() < 2 || f.height() < 2) return;
+        pyramid = height_pyramid(f);
+        rays.emplace(f, pyramid, sun);
+    }
+    DrawnRays(const DrawnRays&) = delete;
+    DrawnRays& operator=(const DrawnRays&) = delete;
+};
+
 TEST(HeightRays, AreTheMarchAtSamples) {
     std::int64_t dark = 0, asked = 0;
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
-        drawn::Random random(seed);
-        const HeightField f = drawn::heights(random);
-        if (f.width() < 2 || f.height() < 2) continue;
-        const HeightSun sun = drawn::sun(random, f);
-        const HeightPyramid pyramid = height_pyramid(f);
-        const HeightRays rays(f, pyramid, sun);
+        DrawnRays draw(seed);
+        if (!draw.rays) continue;
+        const HeightField& f = draw.f;
         for (const int last : {1, 3, 1000}) {
-            const ShadowBits march = march_shadows(f, sun, {.first = 0, .last = last});
+            const ShadowBits march = march_shadows(f, draw.sun, {.first = 0, .last = last});
             for (int y = 0; y < f.height(); ++y) {
                 for (int x = 0; x < f.width(); ++x) {
-                    const GroundPlace place = at_sample(f, x, y, drawn::below(random, 4));
-                    ASSERT_EQ(rays.ground_hidden(place, last), march(x, y))
+                    const GroundPlace place = at_sample(f, x, y, drawn::below(draw.random, 4));
+                    ASSERT_EQ(draw.rays->ground_hidden(place, last), march(x, y))
                         << "seed " << seed << ", " << last << " lines, sample " << x << ", " << y;
                     dark += march(x, y);
                     ++asked;
@@ -77,12 +92,9 @@ double steepest(const HeightField& f, const HeightSun& sun) {
 TEST(HeightRays, MeetTheSurfaceFromBetweenSamplesFromTheAirAndFromBeside) {
     std::int64_t hidden = 0, asked = 0;
     for (std::uint64_t seed = 0; seed < 600; ++seed) {
-        drawn::Random random(seed);
-        const HeightField f = drawn::heights(random);
-        if (f.width() < 2 || f.height() < 2) continue;
-        const HeightSun sun = drawn::sun(random, f);
-        const HeightPyramid pyramid = height_pyramid(f);
-        const HeightRays rays(f, pyramid, sun);
+        DrawnRays draw(seed);
+        if (!draw.rays) continue;
+        auto& [random, f, sun, pyramid, rays] = draw;
         const double step = 0.003, slack = steepest(f, sun) * step * 2;
         for (int i = 0; i < 12; ++i) {
             const GroundPlace place{drawn::below(random, f.width() - 1), drawn::below(random, f.height() - 1),
@@ -90,7 +102,7 @@ TEST(HeightRays, MeetTheSurfaceFromBetweenSamplesFromTheAirAndFromBeside) {
             HeightPoint p{place.cell_x + place.right, place.cell_y + place.down, ground_height_m(f, place)};
             bool answer = false;
             if (i % 3 == 0) {
-                answer = rays.ground_hidden(place, 1 << 20);
+                answer = rays->ground_hidden(place, 1 << 20);
             } else {
                 if (i % 3 == 1) p.height_m += 2 * drawn::unit(random);
                 if (i % 3 == 2) {
@@ -98,7 +110,7 @@ TEST(HeightRays, MeetTheSurfaceFromBetweenSamplesFromTheAirAndFromBeside) {
                     p.y += (drawn::unit(random) - 0.5) * 3 * f.height();
                     p.height_m += 3;
                 }
-                answer = rays.hidden(p);
+                answer = rays->hidden(p);
             }
             const double above = highest_above(f, sun, p, step);
             ++asked;
