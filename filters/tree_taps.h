@@ -28,6 +28,7 @@ template <class Code>
 float value_along(const TreeTaps& taps, std::int32_t x, std::int32_t y, TreePath& path) {
     const int level = taps.kernel.level;
     const TreePlace place = extend_path<Code>(taps.tree, x << level, y << level, level, path);
+    // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): no level is negative
     return depth_of<Code>(taps.tree, place, x << level, y << level, level);
 }
 

@@ -150,8 +150,9 @@ void draw_day(Figure& f, const HeightField& ground, const std::vector<FarSun>& d
         for (int group = 0; group < coded.groups(); ++group) {
             const FarDay::Suns part = coded.suns_of(group);
             std::uint64_t bytes = 0;
-            for (int tile = 0; tile < coded.tiles(); ++tile)
-                bytes += coded.units[static_cast<std::size_t>(group * coded.tiles() + tile)].bytes;
+            const auto tiles = static_cast<std::size_t>(coded.tiles());
+            for (std::size_t tile = 0; tile < tiles; ++tile)
+                bytes += coded.units[static_cast<std::size_t>(group) * tiles + tile].bytes;
             const double bits =
                 8.0 * static_cast<double>(bytes) / (static_cast<double>(side) * side * part.count);
             for (const int at : {part.first, part.first + part.count})

@@ -153,8 +153,8 @@ LampReceivers seen_receivers(const LampScene& scene, int width, int height, cons
         for (int x = window.x; x < window.x + window.width; x += window.step) {
             const int tile = y / frame_tile_side * columns + x / frame_tile_side, row = y % frame_tile_side,
                       at = row % block_rows * frame_tile_side + x % frame_tile_side;
-            const SurfaceBlock& b =
-                blocks[static_cast<std::size_t>(tile * (frame_tile_side / block_rows) + row / block_rows)];
+            const SurfaceBlock& b = blocks[static_cast<std::size_t>(tile) * (frame_tile_side / block_rows) +
+                                           static_cast<std::size_t>(row / block_rows)];
             const bool covered = (b.covered[at / 16] >> (at % 16) & 1u) != 0;
             receivers.add({b.px[at], b.py[at], b.pz[at]},
                           covered ? Vec3f{b.gx[at], b.gy[at], b.gz[at]} : Vec3f{0, 1, 0}, turn_of(x, y),

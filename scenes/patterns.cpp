@@ -46,8 +46,8 @@ Image<Rgb8> picture(int size, int grid, F&& colour) {
         for (int x = 0; x < size; ++x) {
             int r = 0, g = 0, b = 0;
             for (int k = 0; k < grid * grid; ++k) {
-                const double u = (x + (k % grid + 0.5) / grid) / size,
-                             v = (y + (k / grid + 0.5) / grid) / size;
+                const int i = k % grid, j = k / grid;
+                const double u = (x + (i + 0.5) / grid) / size, v = (y + (j + 0.5) / grid) / size;
                 const Rgb8 c = colour(u, v);
                 r += c.r, g += c.g, b += c.b;
             }

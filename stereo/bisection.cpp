@@ -263,7 +263,8 @@ void Bisection::share_pixels(FineTriangle& kept, FineTriangle& added, int from_c
     const auto width = static_cast<std::uint32_t>(projection_.view.width);
     const auto begin = pixels.begin() + kept.first_pixel, end = begin + kept.pixels;
     const auto middle = std::stable_partition(begin, end, [&](std::uint32_t pixel) {
-        const double x = pixel % width + 0.5, y = pixel / width + 0.5;
+        const std::uint32_t column = pixel % width, row = pixel / width;
+        const double x = column + 0.5, y = row + 0.5;
         return (a * x + b * y + c > 0) == positive;
     });
     const auto stay = static_cast<std::uint32_t>(middle - begin);

@@ -21,6 +21,7 @@ struct Key {
     ConflictKind kind;
     std::uint32_t object, behind;
     Side side;
+    // NOLINTNEXTLINE(modernize-use-nullptr): the compiler's own comparisons with 0
     friend auto operator<=>(const Key&, const Key&) = default;
 };
 struct Tally {
@@ -177,6 +178,7 @@ Conflicts find_conflicts(const MiddleView& view, const DisparityMap& map, const 
     CHECK(map.width == view.width() && map.height == view.height() &&
           limits.comfort.nearest_px >= limits.comfort.farthest_px);
     std::vector<double> distance;
+    distance.reserve(static_cast<std::size_t>(map.width));
     for (int x = 0; x < map.width; ++x)
         distance.push_back(border_distance(view, x));
 

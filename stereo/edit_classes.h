@@ -17,6 +17,7 @@ constexpr std::uint32_t no_class = 0xffffffffu;
 
 struct PixelClass {
     std::uint32_t object = nothing_seen, material = nothing_seen;
+    // NOLINTNEXTLINE(modernize-use-nullptr): the compiler's own comparisons with 0
     friend auto operator<=>(const PixelClass&, const PixelClass&) = default;
 };
 

@@ -135,6 +135,7 @@ std::vector<const StereoEdit*> edits_in_order(const std::vector<StereoEdit>& edi
     std::stable_sort(keyed.begin(), keyed.end(),
                      [](const auto& a, const auto& b) { return a.first.tie() < b.first.tie(); });
     std::vector<const StereoEdit*> order;
+    order.reserve(keyed.size());
     for (const auto& [key, edit] : keyed)
         order.push_back(edit);
     return order;

@@ -91,7 +91,7 @@ bool stack_pays(const SceneDocument& document, const SceneLight& light, const Sc
 
 /// Why this method and this code. `reason`: for the method.
 std::string method_text(const ShadowSettings& s, const std::string& reason) {
-    const std::string out = fmt::format("          {}: {}\n", name_of(shadow_method_words, s.method), reason);
+    std::string out = fmt::format("          {}: {}\n", name_of(shadow_method_words, s.method), reason);
     const CodeChoice choice = chosen_code(s);
     if (s.method != ShadowMethod::compressed || choice.reason == nullptr) return out;
     return out + fmt::format("          {}: auto, {}\n", name_of(choice.code), choice.reason);
@@ -131,6 +131,7 @@ FrameOptions channels_of(const std::vector<Output>& outputs) {
 void check_frames(const SceneDocument& document, const FrameOptions& channels, Scene& scene) {
     const FrameRange range = scene_frames(document);
     std::vector<int> frames;
+    frames.reserve(static_cast<std::size_t>(range.count()));
     for (int i = 0; i < range.count(); ++i)
         frames.push_back(range.at(i));
     FrameChecks checks(document, channels);

@@ -27,7 +27,7 @@ std::string names() {
 
 /// A name as a shell takes it for one word.
 std::string quoted(const std::filesystem::path& file) {
-    const std::string name = file.string();
+    std::string name = file.string();
     if (name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./+-") ==
         std::string::npos)
         return name;

@@ -122,7 +122,7 @@ FarDay make_far_file(const TerrainDayOptions& options, const HeightField& field,
         field, plan.known, plan.groups, options.run.exec, watch,
         [&](const FarDay& so_far) { write_far_file(partial, so_far, plan.key, Existing::replace); });
     stop_if_requested();
-    const FarDay wanted = with_only(day, plan.groups);
+    FarDay wanted = with_only(day, plan.groups);
     write_far_file(options.far_shadows, wanted, plan.key,
                    plan.state == FarFileState::other ? options.run.existing() : Existing::replace);
     std::error_code none;

@@ -43,7 +43,7 @@ std::vector<ShadowPicture> shadow_pictures(const HeightField& field, const SunPa
 std::string shadow_png(const Image<float>& shares) {
     Image<Rgb8> picture(shares.width, shares.height);
     for (std::size_t i = 0; i < shares.pixels.size(); ++i) {
-        const auto grey = static_cast<std::uint8_t>(shares.pixels[i] * 255 + 0.5f);
+        const auto grey = static_cast<std::uint8_t>(std::floor(shares.pixels[i] * 255 + 0.5f));
         picture.pixels[i] = {grey, grey, grey};
     }
     return encode_png(picture.view());

@@ -66,7 +66,7 @@ class ObjectTable {
         : text_(text), fallback_(fallback), number_(text.object_names.size() + 1, none) {}
 
     std::uint32_t number(std::int32_t object) {
-        std::uint32_t& n = number_[static_cast<std::size_t>(object + 1)];
+        std::uint32_t& n = number_[static_cast<std::size_t>(std::int64_t{object} + 1)];
         if (n == none) {
             n = static_cast<std::uint32_t>(objects.size());
             objects.push_back(

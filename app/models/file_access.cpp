@@ -98,7 +98,7 @@ fs::path resolve_as_written(const FileAccess& access, const fs::path& folder, co
 
     // Where it leads is decided before whether it is there: no peeking outside.
     std::error_code error;
-    const fs::path path = fs::weakly_canonical((folder.empty() ? fs::path(".") : folder) / name, error);
+    fs::path path = fs::weakly_canonical((folder.empty() ? fs::path(".") : folder) / name, error);
     if (error) fail(name, "cannot follow", error.value());
     const bool allowed =
         inside(path, access.root) || std::any_of(access.allowed.begin(), access.allowed.end(),

@@ -125,10 +125,8 @@ class Reader {
             if (p.mode != GltfMode::triangles && p.mode != GltfMode::triangle_strip &&
                 p.mode != GltfMode::triangle_fan) {
                 ++skipped_primitives;
-            } else if (accessor(p.indices >= 0 ? p.indices : p.positions).count >= 3) {
-                known->push_back(k);
-            } else if (p.mode == GltfMode::triangles &&
-                       accessor(p.indices >= 0 ? p.indices : p.positions).count > 0) {
+            } else if (accessor(p.indices >= 0 ? p.indices : p.positions).count >=
+                       (p.mode == GltfMode::triangles ? 1 : 3)) {
                 known->push_back(k);
             }
         }

@@ -70,7 +70,7 @@ bool has_frame_number(const std::string& pattern) {
 }
 
 fs::path output_path(const PlannedOutput& output, int frame) {
-    const fs::path path(output.pattern);
+    fs::path path(output.pattern);
     std::string name = path.filename().string();
     const std::size_t last = name.rfind('#');
     if (last == std::string::npos || output.least_run == 0) return path;

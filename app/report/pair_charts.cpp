@@ -138,8 +138,8 @@ std::string convergence_svg(const SolveReport& report, const SolverParams& param
     };
 
     SvgChart chart(width, height, "Residual and error estimates against the iteration");
-    for (double e = decades.low; e <= decades.high; ++e)
-        chart.level(plot, decades.at(e), power_of_ten_text(static_cast<int>(e)));
+    for (int e = static_cast<int>(decades.low); e <= static_cast<int>(decades.high); ++e)
+        chart.level(plot, decades.at(e), power_of_ten_text(e));
     for (const auto& [tolerance, look] :
          {std::pair{params.tolerance_max_px, "worst limit"}, std::pair{params.tolerance_rms_px, "rms limit"}})
         chart.line({plot.x, at_y(tolerance)}, {right, at_y(tolerance)}, look);

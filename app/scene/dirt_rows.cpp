@@ -8,7 +8,8 @@ DirtRow dirt_row(T LensDirt::*member, const char* flag_value, const char* flag_d
     return {member, key_row(member, std::move(key)), flag_value, flag_doc};
 }
 
-DirtRow dirt_row(Occluder LensDirt::*member, const char* flag_value, const char* flag_doc, KeySpec key) {
+DirtRow dirt_row(Occluder LensDirt::*member, const char* flag_value, const char* flag_doc,
+                 const KeySpec& key) {
     return {member, word_row(member, occluder_words, key.name, key.doc), flag_value, flag_doc};
 }
 

@@ -68,7 +68,7 @@ Texture terrain_picture(const std::string& name, const ElevationModel& model, co
             const bool is_water = height_m <= 0 && slope == 0;
             const Colour level = is_water ? water : colour_of_height((height_m - model.least_m) / range_m);
             const Colour c = mixed(level, rock, (slope - some_rock) / (all_rock - some_rock));
-            const auto code = [](double v) { return static_cast<std::uint8_t>(v + 0.5); };
+            const auto code = [](double v) { return static_cast<std::uint8_t>(std::floor(v + 0.5)); };
             picture(x, y) = {code(c[0]), code(c[1]), code(c[2]), 255};
         }
     }

@@ -38,12 +38,13 @@ Mesh terrain_mesh(const Path& file) {
     const Image<std::uint16_t> samples = decode_pnm(bytes_of(file), file.string()).codes;
     const int columns = std::min(samples.width, most_cells + 1),
               rows = std::min(samples.height, most_cells + 1);
+    const int middle_x = columns / 2, middle_z = rows / 2;
     const int x0 = (samples.width - columns) / 2, z0 = (samples.height - rows) / 2;
     Mesh mesh;
     for (int z = 0; z < rows; ++z) {
         for (int x = 0; x < columns; ++x)
-            mesh.positions.push_back(to_float(
-                Vec3d{(x - columns / 2) * dx, samples(x0 + x, z0 + z) * scale, (z - rows / 2) * dz}));
+            mesh.positions.push_back(
+                to_float(Vec3d{(x - middle_x) * dx, samples(x0 + x, z0 + z) * scale, (z - middle_z) * dz}));
     }
     const auto at = [&](int x, int z) { return static_cast<std::uint32_t>(z * columns + x); };
     for (int z = 0; z + 1 < rows; ++z) {

@@ -30,19 +30,21 @@ VisiblePoints visible_points(const Scene& scene, const Exec& exec) {
     const int columns = points.columns(), block_lines = points.height / block_rows;
     const int rows = (block_lines + blocks_per_tile - 1) / blocks_per_tile;
     points.blocks.resize(static_cast<std::size_t>(columns) * static_cast<std::size_t>(block_lines));
-    parallel_for(static_cast<std::size_t>(columns * rows), exec, [&](std::size_t tile_index) {
-        const auto work = std::make_unique<TileWork>();
-        const int column = static_cast<int>(tile_index) % columns;
-        const int row = static_cast<int>(tile_index) / columns;
-        const TileRect tile = tile_visibility(tiles, column, row, tiles.pattern[0], exec.isa, *work);
-        for (int b = 0; b < blocks_per_tile; ++b) {
-            const int line = row * blocks_per_tile + b;
-            if (line >= block_lines) break;
-            block_surface(tiles, tile, b * block_rows, exec.isa, *work);
-            points.blocks[static_cast<std::size_t>(line) * static_cast<std::size_t>(columns) +
-                          static_cast<std::size_t>(column)] = work->surface;
-        }
-    });
+    parallel_for(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), exec,
+                 [&](std::size_t tile_index) {
+                     const auto work = std::make_unique<TileWork>();
+                     const int column = static_cast<int>(tile_index) % columns;
+                     const int row = static_cast<int>(tile_index) / columns;
+                     const TileRect tile =
+                         tile_visibility(tiles, column, row, tiles.pattern[0], exec.isa, *work);
+                     for (int b = 0; b < blocks_per_tile; ++b) {
+                         const int line = row * blocks_per_tile + b;
+                         if (line >= block_lines) break;
+                         block_surface(tiles, tile, b * block_rows, exec.isa, *work);
+                         points.blocks[static_cast<std::size_t>(line) * static_cast<std::size_t>(columns) +
+                                       static_cast<std::size_t>(column)] = work->surface;
+                     }
+                 });
     for (const SurfaceBlock& block : points.blocks) {
         for (const std::uint32_t group : block.covered)
             points.covered += static_cast<std::size_t>(std::popcount(group));

@@ -40,11 +40,13 @@ Image<Rgb8> wrong_picture(const TrueShadows& scene, const std::vector<std::uint8
             float sum = 0;
             std::uint8_t kind = 0;
             for (int i = 0; i < 4; ++i) {
-                const auto p = static_cast<std::size_t>((2 * y + i / 2) * width + 2 * x + i % 2);
+                const auto p = static_cast<std::size_t>(2 * y + i / 2) * static_cast<std::size_t>(width) +
+                               static_cast<std::size_t>(2 * x + i % 2);
                 sum += grey[p] < 0 ? static_cast<float>(background.r) / 255.0f : grey[p];
                 kind = std::max(kind, kinds[p]);
             }
-            const auto level = static_cast<std::uint8_t>(std::clamp(sum * 0.25f, 0.0f, 1.0f) * 255.0f + 0.5f);
+            const auto level =
+                static_cast<std::uint8_t>(std::floor(std::clamp(sum * 0.25f, 0.0f, 1.0f) * 255.0f + 0.5f));
             picture(x, y) = kind == 0 ? Rgb8{level, level, level} : kind_color[kind - 1];
         }
     }

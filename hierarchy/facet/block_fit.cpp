@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/error.h"
+
 namespace obscura {
 namespace {
 
@@ -22,6 +24,7 @@ float rounded_up(double a) {
 }
 
 std::uint64_t texels_of(int first, int height) {
+    CHECK(height >= 0 && height <= 3);
     const int count = 1 << (2 * height);
     return (count == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1) << first;
 }

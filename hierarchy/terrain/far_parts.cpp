@@ -16,6 +16,7 @@ std::span<const FarUnit> units_of(const FarDay& day, int group) {
 
 std::vector<CodedGroup> coded_groups(const FarDay& day) {
     std::vector<CodedGroup> groups;
+    groups.reserve(static_cast<std::size_t>(day.groups()));
     for (int group = 0; group < day.groups(); ++group)
         groups.push_back(coded_group(day, group));
     return groups;

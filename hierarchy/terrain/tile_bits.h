@@ -25,9 +25,12 @@ struct TileBits {
           blocks_y((area.height + 7) / 8),
           blocks(static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y)) {}
 
-    std::uint64_t& operator()(int x, int y) { return blocks[static_cast<std::size_t>(y * blocks_x + x)]; }
-    std::uint64_t operator()(int x, int y) const {
-        return blocks[static_cast<std::size_t>(y * blocks_x + x)];
+    std::uint64_t& operator()(int x, int y) { return blocks[index(x, y)]; }
+    std::uint64_t operator()(int x, int y) const { return blocks[index(x, y)]; }
+
+  private:
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_x) + static_cast<std::size_t>(x);
     }
 };
 

@@ -1,14 +1,14 @@
 #!/bin/bash
-# One source file after the other, without the precompiled headers: what changed lately first, then the others in an
-# order that every commit shuffles anew, until time is up.
+# One source file after the other, without the precompiled headers: what changed lately, however long it takes; then
+# what includes it, then the others, each in an order that every commit shuffles anew, until time is up.
 #   file_by_file.sh tidy BUILD_DIR SOURCE_DIR SECONDS      clang-tidy 14 with the rules of .clang-tidy: all rooms,
 #       lessons and bench too (fewer checks), but no tests and no kernels
 #   file_by_file.sh includes BUILD_DIR SOURCE_DIR SECONDS  every file compiles with the includes it names itself. What
 #       clang-tidy has found fine since the sources are as they are has been compiled so and is not looked at again.
 #   file_by_file.sh self-test CXX
 # BUILD_DIR is made for it: a release build that is configured with OBSCURA_PRECOMPILE=OFF and never built. Changed
-# is what differs from the last commit or was in a commit of the last day before it, and the sources that include such
-# a header. What is left out is named. OBSCURA_ALL_FILES=1: every file, however long it takes.
+# is what differs from the last commit or was in a commit of the last day before it, and the source beside a header
+# that did. What is left out is named. OBSCURA_ALL_FILES=1: every file, however long it takes.
 set -u -o pipefail
 export LC_ALL=C
 self=$(realpath "$0")
@@ -82,16 +82,29 @@ commands() {
         }' "$1/compile_commands.json"
 }
 
-# Files that changed, and sources that include a header which did.
+# Headers and sources that changed.
 changed_files() {
-    local last changed
+    local last
     last=$(git log -1 --format=%ct 2>/dev/null) || { echo "no history: nothing counts as changed" >&2; return 0; }
-    changed=$( (git log --since="$((last - 86400))" --name-only --format= && git diff --name-only HEAD) |
-        grep -E '\.(h|cpp)$' | sort -u)
-    [ -n "$changed" ] || return 0
-    echo "$changed"
-    grep '\.h$' <<<"$changed" | sed 's/.*/"&"/' | grep -rlF --include='*.cpp' -f - core raster hierarchy filters optics \
+    (git log --since="$((last - 86400))" --name-only --format= && git diff --name-only HEAD) |
+        grep -E '\.(h|cpp)$' | sort -u
+}
+
+# Sources that include one of the headers on standard input.
+includers() {
+    grep '\.h$' | sed 's/.*/"&"/' | grep -rlF --include='*.cpp' -f - core raster hierarchy filters optics \
         stereo scenes app lessons bench tests 2>/dev/null
+}
+
+# Of the commands on standard input, those of the files that FILE names.
+of_files() {  # of_files FILE
+    awk -F '\t' 'FILENAME != "-" { is[$1] = 1; next } $1 in is' "$1" -
+}
+not_of_files() {  # not_of_files FILE
+    awk -F '\t' 'FILENAME != "-" { is[$1] = 1; next } !($1 in is)' "$1" -
+}
+shuffled() {
+    shuf --random-source=<(yes "$(git rev-parse HEAD 2>/dev/null)")
 }
 
 run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
@@ -100,25 +113,29 @@ run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
     cd "$3" || exit 1
     commands "$2" >"$work/all"
     [ -s "$work/all" ] || { echo "no commands in $2/compile_commands.json"; return 1; }
-    changed_files | sort -u | sed "s|^|$PWD/|" >"$work/changed"
-    awk -F '\t' 'FILENAME == ARGV[1] { is[$1] = 1; next } $1 in is' "$work/changed" "$work/all" >"$work/first"
-    awk -F '\t' 'FILENAME == ARGV[1] { is[$1] = 1; next } !($1 in is)' "$work/changed" "$work/all" |
-        shuf --random-source=<(yes "$(git rev-parse HEAD 2>/dev/null)") >"$work/then"
+    changed_files >"$work/changed"
+    sed "s|^|$PWD/|; s|\.h$|.cpp|" "$work/changed" | sort -u >"$work/own"
+    includers <"$work/changed" | sed "s|^|$PWD/|" >"$work/including"
+    of_files "$work/own" <"$work/all" >"$work/first"
+    not_of_files "$work/own" <"$work/all" >"$work/other"
+    of_files "$work/including" <"$work/other" | shuffled >"$work/then"
+    not_of_files "$work/including" <"$work/other" | shuffled >>"$work/then"
     : >"$work/tidied"
     if [ "$1" = tidy ]; then
         # Not kernels, which are built once per instruction set; not image_io.cpp, which holds all of stb; not tests,
         # which are mostly macros of GoogleTest.
-        cat "$work/first" "$work/then" | grep -vE '_kernel\.cpp'$'\t''|/image_io\.cpp'$'\t'"|^$PWD/tests/" >"$work/timed"
+        chosen() { grep -vE '_kernel\.cpp'$'\t''|/image_io\.cpp'$'\t'"|^$PWD/tests/"; }
     else
         if [ "$(head -n 1 "$2/tidied" 2>/dev/null)" = "$(state_of_sources)" ]; then cp "$2/tidied" "$work/tidied"; fi
-        cat "$work/first" "$work/then" |
-            awk -F '\t' 'FILENAME != "-" { is[$1] = 1; next } !($1 in is)' "$work/tidied" - >"$work/timed"
-        parse_gtest "$2" "$work/timed"
+        chosen() { not_of_files "$work/tidied"; }
     fi
+    chosen <"$work/first" >"$work/always"
+    chosen <"$work/then" >"$work/timed"
+    if [ "$1" = includes ]; then parse_gtest "$2" <(cat "$work/always" "$work/timed"); fi
     deadline=$(($(date +%s) + $4))
     [ -z "${OBSCURA_ALL_FILES-}" ] || deadline=0
     each() { xargs -r -d '\n' -P 2 -n 1 bash "$self" look-at "$1" "$2" "$3" <"$4"; }
-    each "$1" "$2" "$deadline" "$work/timed" >"$work/out"
+    (each "$1" "$2" 0 "$work/always"; each "$1" "$2" "$deadline" "$work/timed") >"$work/out"
     if [ "$1" = tidy ]; then { state_of_sources; sed -n 's/^fine: //p' "$work/out"; } >"$2/tidied"; fi
     grep -vE '^(fine|left out): ' "$work/out"
     echo "$(grep -c '^fine: ' "$work/out") files are fine, $(grep -c '^failed: ' "$work/out") are not;" \
@@ -127,7 +144,7 @@ run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
     grep '^left out: ' "$work/out" && echo "(left out: no time for them in $4 seconds)"
     local failed=0
     if grep -q '^failed: ' "$work/out"; then failed=1; fi
-    if [ "$(grep -cE '^(fine|failed|left out): ' "$work/out")" -ne "$(wc -l <"$work/timed")" ]; then
+    if [ "$(grep -cE '^(fine|failed|left out): ' "$work/out")" -ne "$(cat "$work/always" "$work/timed" | wc -l)" ]; then
         echo "not every file was looked at"
         failed=1
     fi
@@ -135,7 +152,7 @@ run() {  # run MODE BUILD_DIR SOURCE_DIR SECONDS
     return $failed
 }
 
-# Files with and without all their includes, in a small house without history.
+# Files with and without all their includes, in a small house without history, and with one that changed.
 self_test() {
     unset OBSCURA_ALL_FILES
     local work failures=0
@@ -174,6 +191,10 @@ self_test() {
         echo >>"$work/core/good.cpp"
         expect 60 '2 files are fine, 2 are not; .* 0 were looked at' 1 includes
     fi
+    # What changed is looked at even when there is no time, and the rest is not.
+    (cd "$work" && git init -q && git add core/bad.cpp && git -c user.name=a -c user.email=a@b commit -qm a)
+    expect 0 "failed: $work/core/bad.cpp" 1 includes
+    expect 0 "left out: $work/core/good.cpp" 1 includes
     rm -rf "$work"
     return $failures
 }
