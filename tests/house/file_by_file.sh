@@ -7,7 +7,7 @@
 #       clang-tidy has found fine since the sources are as they are has been compiled so and is not looked at again.
 #   file_by_file.sh self-test CXX
 # BUILD_DIR is made for it: a release build that is configured with OBSCURA_PRECOMPILE=OFF and never built. Changed
-# is what differs from the last commit or was in a commit of the last day before it, and the source beside a header
+# is what differs from the last commit or was in a commit of the six hours before it, and the source beside a header
 # that did. What is left out is named. OBSCURA_ALL_FILES=1: every file, however long it takes.
 set -u -o pipefail
 export LC_ALL=C
@@ -86,7 +86,7 @@ commands() {
 changed_files() {
     local last
     last=$(git log -1 --format=%ct 2>/dev/null) || { echo "no history: nothing counts as changed" >&2; return 0; }
-    (git log --since="$((last - 86400))" --name-only --format= && git diff --name-only HEAD) |
+    (git log --since="$((last - 21600))" --name-only --format= && git diff --name-only HEAD) |
         grep -E '\.(h|cpp)$' | sort -u
 }
 
